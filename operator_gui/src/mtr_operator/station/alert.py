@@ -1,4 +1,4 @@
-"""When the Operator, who looks at Car and robot, has to hear something."""
+"""Acoustic alerts for the Operator, who watches Car and robot instead of the screen."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .readiness import Phase, ReadinessWord
 
 
 class Alert(enum.Enum):
-    """The value says how many beeps it is."""
+    """Alerts; the value is the number of beeps."""
 
     MOVES = 1
     DONE = 2
@@ -19,8 +19,8 @@ class Alert(enum.Enum):
 
 @dataclass(frozen=True)
 class Heard:
-    """What decides on an alert. has_trouble: the test was interrupted, and not by the Operator. is_asked: the
-    Operator has to confirm to be present."""
+    """Inputs of the alert decision. has_trouble: the test was interrupted, but not by the Operator. is_asked: the
+    Operator must confirm presence."""
 
     may_move: bool
     word: ReadinessWord
@@ -30,7 +30,7 @@ class Heard:
 
 
 def alert_of(before: Heard, now: Heard) -> Alert | None:
-    """What is to be heard when one state follows another; the worst of it."""
+    """Return the alert for the transition between two states; the most severe one."""
     if now.has_trouble and not before.has_trouble:
         return Alert.TROUBLE
     is_bad = now.word in (ReadinessWord.BLOCKED, ReadinessWord.LOST)

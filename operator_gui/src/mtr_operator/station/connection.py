@@ -1,4 +1,4 @@
-"""What the Operator chooses to connect to: the robot's address, and a CAN adapter or none yet."""
+"""The Operator's choice of connections: the robot's address, and a CAN adapter if already chosen."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _MAX_SESSION_ID = 2 ** 63 - 1
 class RobotChoice:
     """Address of the robot, or SIMULATED; the ports are named from the Operator's side.
 
-    is_unencrypted: the person does without encryption, which another computer's robot has to allow too.
+    is_unencrypted: the person chose a connection without encryption, which a remote robot must permit too.
     """
 
     host: str = "127.0.0.1"
@@ -41,7 +41,7 @@ class RobotChoice:
 
 @dataclass(frozen=True)
 class BusChoice:
-    """Adapter on a further bus of the Car, which only listens; bus: its name in the profile. The rest as in
+    """Adapter on a further bus of the Car, which only listens; bus: its name in the profile. The other attributes as in
     CanChoice."""
 
     bus: str
@@ -53,9 +53,9 @@ class BusChoice:
 
 @dataclass(frozen=True)
 class CanChoice:
-    """Adapter on the Car's bus and the profile of the Car; interface as python-can names it, or SIMULATED.
+    """Adapter on the Car's bus and the profile of the Car; interface as named by python-can, or SIMULATED.
 
-    data_bitrate_bps: of CAN FD, None for classic CAN. is_normal: the adapter takes part in the bus; without it sends
+    data_bitrate_bps: of CAN FD, None for classic CAN. is_normal: the adapter is in normal mode; otherwise it sends
     nothing. further: adapters on the further buses that the profile declares.
     """
 
@@ -69,20 +69,20 @@ class CanChoice:
 
     @property
     def places(self) -> tuple[tuple[str, str], ...]:
-        """Interface and channel of each adapter."""
+        """Return interface and channel of each adapter."""
         return ((self.interface, self.channel), *((each.interface, each.channel) for each in self.further))
 
 
 @dataclass(frozen=True)
 class Connection:
-    """Everything that the connection window asks for. can: None when no adapter is chosen yet."""
+    """Content of the connection window. can: None before an adapter is chosen."""
 
     robot: RobotChoice = RobotChoice()
     can: CanChoice | None = None
 
 
 def whole_number(text: str, name: str) -> int:
-    """Number in a field; InvalidParameter names the field."""
+    """Return the number in a field; InvalidParameter names the field."""
     try:
         return int(text.strip())
     except ValueError:
@@ -90,7 +90,7 @@ def whole_number(text: str, name: str) -> int:
 
 
 def robot_choice(host: str, subscriber_port: str, publisher_port: str, is_unencrypted: bool = False) -> RobotChoice:
-    """Choice from what stands in the fields; InvalidParameter says which one is wrong."""
+    """Return the choice in the fields; InvalidParameter names a wrong one."""
     choice = RobotChoice(host.strip(), whole_number(subscriber_port, "subscriber port"),
                          whole_number(publisher_port, "publisher port"), is_unencrypted)
     RobotAddress(choice.host, choice.subscriber_port, choice.publisher_port)
@@ -98,11 +98,11 @@ def robot_choice(host: str, subscriber_port: str, publisher_port: str, is_unencr
 
 
 class LinkOpener:
-    """Makes the links for a choice; drivers are imported when they are used first.
+    """Factory of the links for a choice; drivers are imported at their first use.
 
-    The simulated robot continues from one link to the next, as a real robot does: its clock, place and map are kept.
-    time_factor: simulated seconds per second of wall time; a person watches at 1, and a real bus may be connected.
-    car_seed: which Car the substitute of the Car is.
+    The simulated robot continues from one link to the next, like a real robot: its clock, position and map are kept.
+    time_factor: simulated seconds per second of wall time; 1 for a watching person, and because a real bus may be
+    connected. car_seed: selects the Car of the Car's substitute.
     """
 
     def __init__(self, time_factor: float = 1.0, car_seed: int = 1):
@@ -110,7 +110,7 @@ class LinkOpener:
         self._simulated_robot: VirtualRobot | None = None
 
     def robot(self, choice: RobotChoice) -> RobotLink:
-        """A new link of a new session, not connected yet; ConnectionFailed when the contract is not installed."""
+        """Return a new link of a new session, not connected yet; ConnectionFailed if the contract is not installed."""
         if choice.host == SIMULATED:
             return self._simulated()
         try:
@@ -132,16 +132,16 @@ class LinkOpener:
         return FakeRobotLink(time_factor=self._time_factor, robot=self._simulated_robot, session_id=session_id)
 
     def pair(self, host: str, code: str) -> str:
-        """Pair this laptop with the robot that shows the code; its role.
+        """Pair this laptop with the robot that shows the code; return its role.
 
-        InvalidParameter for an address or code that cannot be right, ConnectionFailed when it does not succeed.
+        InvalidParameter for an invalid address or code, ConnectionFailed if it does not succeed.
         """
         from mtr_operator.robot_link.access.pairing import pair
         return pair(host.strip(), code).role
 
     def listener(self, choice: CanChoice, heard: Callable[[CanFrame], None]) -> Listener:
-        """What listens to the bus of a Car that has no profile yet, not started; InvalidParameter for an adapter that
-        cannot be."""
+        """Return the listener on the bus of a Car without a profile, not started; InvalidParameter for an impossible
+        adapter."""
         from mtr_operator.car_link.adapter import AdapterSettings
         from mtr_operator.car_link.learn.listener import Listener
         return Listener(AdapterSettings(choice.interface, choice.channel, choice.bitrate_bps,
@@ -149,8 +149,8 @@ class LinkOpener:
                         heard)
 
     def car(self, choice: CanChoice | None) -> CarLink:
-        """A new link, not connected yet; InvalidParameter, or BusRefused of a further bus, for an adapter that cannot
-        be."""
+        """Return a new link, not connected yet; InvalidParameter, or BusRefused of a further bus, for an impossible
+        adapter."""
         if choice is None:
             return AbsentCarLink()
         if choice.interface == SIMULATED:

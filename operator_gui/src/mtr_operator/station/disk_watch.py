@@ -1,4 +1,4 @@
-"""Room on the disk of the results, asked in a thread of its own: a folder of a network may answer late, or never."""
+"""Free space on the disk of the results, queried in a separate thread: a network folder may answer late, or never."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PERIOD_S = 5.0
 
 
 def free_bytes(folder: pathlib.Path) -> int | None:
-    """Room where a folder is, or will be made; None when the system does not say."""
+    """Return the free space at a folder, which may not exist yet; None if the system does not report it."""
     for place in (folder, *folder.parents):
         try:
             return shutil.disk_usage(place).free
@@ -23,9 +23,9 @@ def free_bytes(folder: pathlib.Path) -> int | None:
 
 
 class DiskWatch:
-    """folder: gives the one of now.
+    """Periodic query. folder: returns the current folder.
 
-    Attributes: free: room in bytes as of the last look, None when it is not known.
+    Attributes: free: bytes at the last query, None if unknown.
     """
 
     def __init__(self, folder: Callable[[], pathlib.Path]):
@@ -35,12 +35,12 @@ class DiskWatch:
         self.free: int | None = None
 
     def start(self) -> None:
-        """Look now, and every few seconds until stop(); safe to call twice."""
+        """Query now, and every few seconds until stop(); safe to call twice."""
         if self._thread.ident is None:
             self._thread.start()
 
     def stop(self) -> None:
-        """Look no more; does not wait for a look under way."""
+        """Stop the queries, without waiting for a running one."""
         self._ending.set()
 
     def _run(self) -> None:

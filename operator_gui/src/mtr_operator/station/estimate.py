@@ -1,4 +1,4 @@
-"""How long a test is likely to take, and what it takes out of the battery."""
+"""Estimate of a test's duration and energy."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,30 +17,30 @@ from mtr_operator.domain.results.picture import Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
-# Before the robot has measured the Car: a middle-sized one.
+# A middle-sized Car, before the robot has measured the real one.
 USUAL_CAR = CarDimensions(4.5, 1.8, math.nan, math.nan)
-# Before its bus is read: bodies of cars tell the state of their locks every 20 to 800 ms.
+# Before the bus is read: body ECUs send the lock state every 20 to 800 ms.
 USUAL_FACTS = LockFacts(told_every_s=0.2)
-# Measured in the simulation's demo: the way round the Car, the self-check, and what stops, turns on the spot and gentle
-# accelerations add to each line. With these its Autolock is expected to take 384 s and takes 370 s, its Key press on a
-# mapped Car 188 s and 220 s, for the Car reacts nearer than in the middle.
+# Measured in the simulation's demo: the round of the Car, the self-check, and the time per line for stops, turns on the
+# spot and gentle accelerations. The estimates for its Autolock are 384 s (370 s measured), and for its Key press on a
+# mapped Car 188 s (220 s measured), because the Car reacts nearer than in the middle.
 MAPPING_S = 45.0
 SELF_CHECK_S = 17.0
 MANOEUVRES_S = 9.0
 # Clearpath's data sheet of the Jackal: 2 h of heavy use.
 HEAVY_USE_S = 2.0 * 3600.0
-# What should be left at the end.
+# Required charge at the end.
 RESERVE_PERCENT = 15.0
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a test with some parameters would do around a Car.
+    """Plan of a test with some parameters around a Car.
 
     Attributes:
-        stretches: where the key would be carried. preparation_s, lines_s: expected robot times.
-        forecast: of each line, None without a model of it. cautions: what the parameters cannot give.
-        nearness: why the robot must not go as near as the test wants; None when nothing speaks against it.
+        stretches: paths of the key. preparation_s, lines_s: expected robot times.
+        forecast: of each line, None without a model of it. cautions: limits of the parameters.
+        nearness: reason why the robot must not approach as closely as the test requires; None without one.
     """
 
     stretches: tuple[Stretch, ...]
@@ -52,22 +52,23 @@ class Plan:
 
     @property
     def duration_s(self) -> float:
-        """Of the whole test."""
+        """Duration of the whole test."""
         return self.preparation_s + sum(self.lines_s)
 
     @property
     def battery_percent(self) -> float:
-        """What the whole test takes."""
+        """Charge consumed by the whole test."""
         return 100.0 * self.duration_s / HEAVY_USE_S
 
     def suffices(self, battery_percent: float) -> bool:
-        """True when this charge lasts to the end, with a reserve."""
+        """Return True if this charge is sufficient to the end, with a reserve."""
         return battery_percent - self.battery_percent >= RESERVE_PERCENT
 
 
 def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimensions, is_mapped: bool,
             facts: LockFacts = USUAL_FACTS) -> Plan:
-    """Plan of a test; InvalidParameter when the parameters do not suit a Car of this size. facts: of this Car."""
+    """Return the plan of a test; InvalidParameter if the parameters do not match a Car of this size. facts: of this
+    Car."""
     lines = scenario.lines(parameters, car)
     near_m, far_m = parameters.distance_range_m
     rays = [line.ray for line in lines]
@@ -84,7 +85,8 @@ def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimen
 
 
 def _ways(rays: Sequence[Ray], near_m: float, far_m: float) -> list[float]:
-    """Way from a line to the start of the next one, in m: from its middle, on an arc around the Car."""
+    """Return the distances from a line to the start of the next one, in m: from its middle, on an arc around the
+    Car."""
     middle_m = (near_m + far_m) / 2.0
     return [_way(before.point(middle_m), after.point(far_m)) for before, after in zip([*rays[:1], *rays], rays)]
 
@@ -96,9 +98,9 @@ def _way(start: tuple[float, float], goal: tuple[float, float]) -> float:
 
 
 class TimeLeft:
-    """Time to the end, from the expected times of the lines and how well they have held so far.
+    """Time to the end, from the expected times of the lines and their accuracy so far.
 
-    preparation_s: what mapping and check are expected to take before the next line.
+    preparation_s: expected time for mapping and check before the next line.
     """
 
     def __init__(self, expected_s: Sequence[float], preparation_s: float = 0.0):
@@ -108,21 +110,21 @@ class TimeLeft:
         self._begun_s = self._done_s = math.nan
 
     def begin(self, done: int, now_s: float) -> None:
-        """The test starts or goes on with so many lines done."""
+        """Start or resume the test with this number of finished lines."""
         self._begun_with = self._done = done
         self._begun_s = self._done_s = now_s
 
     def advance(self, done: int, now_s: float) -> None:
-        """A line was measured."""
+        """Record a measured line."""
         self._done, self._done_s = done, now_s
 
     def left_s(self, now_s: float) -> float | None:
-        """Time from now on; None when nothing is known."""
+        """Return the time from now on; None if unknown."""
         if math.isnan(self._begun_s) or not self._expected_s:
             return None
         measured_s = sum(self._expected_s[self._begun_with:self._done])
         pace = (self._done_s - self._begun_s) / measured_s if measured_s else 1.0
-        # What the robot does now may take longer than it should, which shortens nothing of what comes after it.
+        # A delay of the current action does not shorten the later ones.
         *now, later_s = ((self._preparation_s, sum(self._expected_s[self._done:])) if self._preparation_s else
                          (sum(self._expected_s[self._done:self._done + 1]), sum(self._expected_s[self._done + 1:])))
         return max(0.0, now[0] * pace - (now_s - self._done_s)) + later_s * pace

@@ -1,4 +1,4 @@
-"""What the thread of the links reports to the view."""
+"""Events from the thread of the links to the view."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RobotSnapshot:
-    """The newest Status with the Car's locks at its time; only the newest one counts.
+    """Newest Status with the Car's locks at its time; only the newest one counts.
 
-    waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted. traffic: of the Car's
-    bus, None where there is no bus to ask. facts: what its profile tells beforehand, None without one.
-    is_exposed: whoever is in the robot's network can read the link and send. preflight: the newest that the robot
-    has told, None while it has told nothing of it. clock_ahead_s: robot's clock less the laptop's, NaN when not known.
+    waypoint: latest destination of the robot, None without one. is_secret: the link is encrypted. traffic: of the Car's
+    bus, None without a bus. facts: from its profile, None without one.
+    is_exposed: any computer in the robot's network can read the link and send. preflight: the newest report, None
+    before one. clock_ahead_s: robot's clock less the laptop's, NaN if unknown.
     signals: of the Car that stop the robot, as its profile names them.
     """
 
@@ -47,7 +47,7 @@ class RobotSnapshot:
 
 
 def known_facts(car: CarLink) -> LockFacts | None:
-    """What the profile of the Car behind a link tells; None where there is no bus."""
+    """Return the facts in the profile of the Car behind a link; None without a bus."""
     return None if part(car, BusMonitor).traffic is None else car.facts
 
 
@@ -72,22 +72,22 @@ class CarLinkOpened:
 
 @dataclass(frozen=True)
 class RobotSilent:
-    """Nothing has come from the robot for so long in wall time."""
+    """The robot has been silent for this wall time."""
 
     silent_s: float
 
 
 @dataclass(frozen=True)
 class StandstillSeen:
-    """The application, or its view, did not run for a while between two tests: the laptop slept, it was stopped, or
-    the window hung. text: a sentence that says for how long."""
+    """The application, or its view, did not run for some time between two tests: the laptop slept, it was stopped, or
+    the window hung. text: a sentence with the duration."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class LinesPlanned:
-    """The lines are known: so many of them are measured already."""
+    """The lines are known; some of them are already measured."""
 
     done: int
     total: int
@@ -96,14 +96,14 @@ class LinesPlanned:
 
 @dataclass(frozen=True)
 class ActionBegun:
-    """The robot begins to do this."""
+    """The robot starts this action."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class LineBegun:
-    """The line with this number is measured from now on; 0: none is."""
+    """The line with this number is measured from now on; 0 for none."""
 
     number: int
 
@@ -119,7 +119,7 @@ class LineMeasured:
 
 
 class Outcome(enum.Enum):
-    """How measuring ended."""
+    """End of measuring."""
 
     COMPLETE = "complete"
     STOPPED = "stopped by the Operator"
@@ -129,7 +129,7 @@ class Outcome(enum.Enum):
 
 @dataclass(frozen=True)
 class RunEnded:
-    """Measuring has ended. text: why, for a person; empty when it is complete."""
+    """Measuring has ended. text: reason for a person; empty if it is complete."""
 
     outcome: Outcome
     text: str
@@ -138,7 +138,7 @@ class RunEnded:
 
 @dataclass(frozen=True)
 class ProgressSaved:
-    """The progress of a test was written on request. text: why not; empty when it was."""
+    """The progress of a test was written on request. text: reason of a failure; empty on success."""
 
     test: Test
     text: str
@@ -146,21 +146,21 @@ class ProgressSaved:
 
 @dataclass(frozen=True)
 class PersonWanted:
-    """A person has to take the Car's handle or to switch the extender; prompt: None when nobody need do so any more."""
+    """A person must pull the Car's handle or switch the extender; prompt: None if that is no longer needed."""
 
     prompt: Prompt | None
 
 
 @dataclass(frozen=True)
 class PresenceWanted:
-    """The Operator has to confirm to be present; is_wanted: False when that need not be done any longer."""
+    """The Operator must confirm presence; is_wanted: False if that is no longer needed."""
 
     is_wanted: bool
 
 
 @dataclass(frozen=True)
 class EventLogged:
-    """The event list has grown by this."""
+    """An event was added to the list."""
 
     entry: EventEntry
 

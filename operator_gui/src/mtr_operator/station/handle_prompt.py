@@ -1,4 +1,4 @@
-"""A person who takes the Car's handle, or switches an extender, when asked, and says so."""
+"""Person who pulls the Car's handle, or switches an extender, when prompted, and confirms it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ from mtr_operator.domain.assistance import OPERATOR, ExtenderPort, HandlePort
 
 @dataclass(frozen=True)
 class HandlePrompt:
-    """What a person is asked: number counts from 1; distance_m of the Remote key on its line."""
+    """Prompt to a person: number counts from 1; distance_m of the Remote key on its line."""
 
     number: int
     distance_m: float
 
     @property
     def done(self) -> str:
-        """What was done, for the event list."""
+        """Return the confirmed action, for the event list."""
         return "The handle was taken."
 
 
 @dataclass(frozen=True)
 class ExtenderPrompt:
-    """What a person is asked: number counts from 1, handles and extenders together; how the extender shall be."""
+    """Prompt to a person: number counts from 1, handles and extenders together; required state of the extender."""
 
     number: int
     is_on: bool
 
     @property
     def done(self) -> str:
-        """What was done, for the event list."""
+        """Return the confirmed action, for the event list."""
         return "The extender was switched on." if self.is_on else "The extender was switched off."
 
 
@@ -38,8 +38,8 @@ Prompt = Union[HandlePrompt, ExtenderPrompt]
 
 
 class AskedPerson(HandlePort, ExtenderPort):
-    """One question at a time. show: shows a prompt, or with None takes it away; called in the thread of the test.
-    answer() may be called in another one."""
+    """Person who receives one prompt at a time. show: shows a prompt, or removes it with None; called in the thread of
+    the test. answer() may be called in another one."""
 
     by = OPERATOR
 
@@ -72,5 +72,5 @@ class AskedPerson(HandlePort, ExtenderPort):
             self._show(None)
 
     def answer(self, number: int) -> None:
-        """The person has done it for the prompt of this number; for another one it says nothing."""
+        """Confirm the prompt of this number; other numbers are ignored."""
         self._answered = number

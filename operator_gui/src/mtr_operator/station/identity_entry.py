@@ -1,4 +1,4 @@
-"""What the Operator types of a test's identity: read, checked by the laboratory, and remembered for the next test."""
+"""Identity of a test as typed by the Operator: parsed, checked by the laboratory, and remembered for the next test."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ from .settings_file import SettingsStore
 
 
 class Annotation(NamedTuple):
-    """What is added to a test that is over. notes: all of them, also those of before; photos: further ones."""
+    """Addition to a finished test. notes: all of them, including earlier ones; photos: further ones."""
 
     notes: str
     photos: tuple[pathlib.Path, ...]
 
     def check(self, identity: Identity) -> None:
-        """Raise InvalidIdentity when a test with this identity cannot take it."""
+        """Raise InvalidIdentity if a test with this identity cannot accept it."""
         identity_from({"notes": self.notes})
         check_photos(self.photos, len(identity.photos))
 
 
-# Fields with a text each; photos are files.
+# Fields with one text each; photos are files.
 FIELDS = tuple(name for name in TITLES if name != "photos")
 
 
 def typed(identity: Identity, decimal_sign: str = ".") -> dict[str, str]:
-    """An identity as it stands in the fields."""
+    """Return an identity as texts of the fields."""
     texts = {name: getattr(identity, name) for name in TEXTS}
     return {**texts, "key_battery_v": written(identity.key_battery_v, decimal_sign),
             "equipment": equipment_text(identity.equipment)}
 
 
 def read(texts: Mapping[str, str]) -> tuple[Identity, dict[str, str]]:
-    """The identity in the fields, and a sentence for each field that is not right; that one counts as empty."""
+    """Return the identity in the fields, and a sentence for each invalid field, which counts as empty."""
     values: dict[str, Any] = {}
     faults: dict[str, str] = {}
     for name, text in texts.items():
@@ -71,30 +71,30 @@ def _battery(text: str) -> float | None:
 
 
 def proposed(store: SettingsStore, today: datetime.date, former: Identity | None = None) -> Identity:
-    """What the fields begin with: what a former test has, else what was typed last; where that says nothing, what the
-    laboratory says of all its tests."""
+    """Return the initial content of the fields: from a former test, else the last one typed; empty fields get the
+    laboratory's defaults."""
     settings = store.settings
     last = settings.identity.of_another_test(settings.identity_day == today.isoformat())
     if former is not None:
         last = former.of_another_test(is_same_day=False)
     try:
         return last.filled_from(load_laboratory(store.laboratory_path).defaults)
-    except InvalidIdentity:  # beginning a test says it
+    except InvalidIdentity:  # The start of a test reports it.
         return last
 
 
 def known_car(settings: Settings, vin: str) -> Identity | None:
-    """What was said of the car with this VIN, and of its key; None for one that was not measured yet."""
+    """Return the recorded data of the car with this VIN, and of its key; None for an unknown one."""
     return next((car for car in settings.cars if car.car_vin == vin.strip()), None)
 
 
 def check_begin(store: SettingsStore, given: GivenIdentity) -> None:
-    """Raise InvalidIdentity when no test may begin with this; what the laboratory requires is read anew."""
+    """Raise InvalidIdentity if no test may start with this; the laboratory's requirements are read again."""
     load_laboratory(store.laboratory_path).check(given.identity, len(given.photos))
     check_photos(given.photos)
 
 
 def remembering(settings: Settings, identity: Identity, today: datetime.date) -> Settings:
-    """Settings that know an identity for the next test, and its car and key for whenever its VIN is typed again."""
+    """Return settings with an identity for the next test, and its car and key for the next use of its VIN."""
     return dataclasses.replace(settings.with_car(identity), identity=dataclasses.replace(identity, notes="", photos=()),
                                identity_day=today.isoformat())

@@ -1,6 +1,6 @@
-"""From the thread of the links to the view: every event in order, and of the Statuses only what is still of interest.
+"""Mailbox from the thread of the links to the view: all events in order, and the relevant part of the Statuses.
 
-However many Statuses come, the view gets one batch whenever it asks for one: it is never flooded, and never late.
+The view gets one batch per request, at any rate of Statuses: it is neither flooded nor late.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -18,17 +18,17 @@ from mtr_operator.domain.robot_status import Problem, RobotStatus
 from .events import RobotSnapshot, StationEvent
 from .trail import Passing, Places, thinned
 
-# Points of the way between two batches; more than that is thinned out.
+# Maximum points of the trail between two batches; more are thinned out.
 MAX_TRAIL = 512
 
 
 @dataclass(frozen=True)
 class Batch:
-    """Everything since the batch before.
+    """Events since the previous batch.
 
-    robot: newest, None when no Status came. sight: the newest that says what the robot sees, None when none did.
-    trail: places passed. said: sentences of the robot, each with its causes.
-    trail_begins: what was passed before lies in another frame of the Car.
+    robot: newest, None without a Status. sight: the newest with the robot's view, None without one.
+    trail: positions passed. said: sentences of the robot, each with its causes.
+    trail_begins: earlier positions are in another frame of the Car.
     """
 
     events: tuple[StationEvent, ...]
@@ -40,10 +40,10 @@ class Batch:
 
 
 class Mailbox:
-    """Thread-safe. wake is called, in the putting thread, when the first thing comes into an empty mailbox. wall_clock:
-    the laptop's time of day, s since 1970.
+    """Mailbox, thread-safe. wake is called, in the putting thread, when an item is put into an empty mailbox.
+    wall_clock: the laptop's time of day, s since 1970.
 
-    Attributes: taken: how often it was emptied.
+    Attributes: taken: number of times it was emptied.
     """
 
     def __init__(self, wake: Callable[[], None] = lambda: None, wall_clock: Callable[[], float] = time.time):
@@ -61,7 +61,7 @@ class Mailbox:
         self.taken = 0
 
     def put(self, event: StationEvent) -> None:
-        """An event; none is lost."""
+        """Add an event; none is lost."""
         with self._lock:
             first = self._is_empty()
             self._events.append(event)
@@ -69,7 +69,7 @@ class Mailbox:
             self._wake()
 
     def put_robot(self, snapshot: RobotSnapshot) -> None:
-        """A Status; it takes the place of the one before."""
+        """Add a Status; it replaces the previous one."""
         status = snapshot.status
         with self._lock:
             first = self._is_empty()

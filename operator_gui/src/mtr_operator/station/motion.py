@@ -1,4 +1,4 @@
-"""Whether the robot may move, so that the view has a stop at hand: from what it reports, and what it was ordered."""
+"""Possible motion of the robot, for which the view needs a stop: from its reports and its orders."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,23 +6,23 @@ import math
 
 from mtr_operator.domain.robot_status import Mode, MotionSource, RobotStatus
 
-# Below these the robot stands: noise of its estimate.
+# Below these speeds the robot counts as stopped: noise of its estimate.
 STANDING_MPS, STANDING_RADPS = 0.02, 0.02
-# Wall time for which an order counts as one under way although the robot does not show it yet, or pauses.
+# Wall time for which an order counts as active although the robot does not show it yet, or pauses.
 ORDER_PATIENCE_S = 3.0
-# A lift that moves less than this between two Statuses stands.
+# A lift that moves less than this between two Statuses counts as stopped.
 _LIFT_NOISE_M = 0.0005
 ROUNDS = (Mode.MAPPING_CAR, Mode.CHECKING_CAR)
 
 
 def is_driving(status: RobotStatus) -> bool:
-    """True when the wheels turn, or somebody has them turn."""
+    """Return True if the wheels turn, also by other causes."""
     return abs(status.speed_mps) > STANDING_MPS or abs(status.yaw_rate_radps) > STANDING_RADPS or \
         status.motion_source in (MotionSource.MANUAL, MotionSource.PLANNER)
 
 
 class Motion:
-    """What the Operator orders between two tests; belongs to the view's thread. Times are of one clock, s."""
+    """Orders of the Operator between two tests; belongs to the view's thread. Times are of one clock, s."""
 
     def __init__(self) -> None:
         self._since_s = -math.inf
@@ -30,26 +30,27 @@ class Motion:
         self._status: RobotStatus | None = None
 
     def order(self, now_s: float) -> None:
-        """The robot is ordered to move: to map or check the Car, or to move lift or servos."""
+        """Record an order with motion: to map or check the Car, or to move lift or servos."""
         self._since_s, self._is_ordered = now_s, True
 
     def stop(self) -> None:
-        """It is ordered to stop, or a test is over; it may still call itself mapping or checking then, and stand."""
+        """Record a stop or the end of a test; the robot may still report mapping or checking although it is stopped."""
         self._since_s, self._is_ordered = -math.inf, False
 
     def learn(self, status: RobotStatus, now_s: float) -> None:
-        """The newest Status."""
+        """Record the newest Status."""
         before, self._status = self._status, status
         if before is not None and self._is_ordered and _moves_key(before, status):
             self._since_s = now_s
 
     def goes_round(self, mode: Mode) -> bool:
-        """True while the robot maps or checks the Car (mode); one whose order has gone only calls itself so."""
+        """Return True while the robot maps or checks the Car (mode); without an order its reported mode alone does not
+        count."""
         status = self._status
         return status is not None and status.mode is mode and (self._is_ordered or is_driving(status))
 
     def is_possible(self, now_s: float) -> bool:
-        """True while it may move."""
+        """Return True while the robot may move."""
         status = self._status
         ordered = now_s - self._since_s < ORDER_PATIENCE_S
         return ordered or (status is not None and (is_driving(status) or any(map(self.goes_round, ROUNDS))))

@@ -1,4 +1,4 @@
-"""One word on whether a test can be started now, and each reason why not."""
+"""Readiness for a test in one word, with each reason against a start."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class ReadinessWord(enum.Enum):
 
 
 class Phase(enum.Enum):
-    """What the application does."""
+    """Activity of the application."""
 
     IDLE = "idle"
     MEASURING = "measuring"
@@ -51,12 +51,12 @@ class Phase(enum.Enum):
     FINISHED = "finished"
 
 
-# A test is under way.
+# Phases of a running test.
 RUNNING = (Phase.MEASURING, Phase.STOPPING)
 
 
 class Cause(enum.Enum):
-    """Kinds of reasons; a view has a sentence and an advice for each."""
+    """Kinds of reasons; a view has a sentence and a remedy for each."""
 
     ROBOT_SILENT = "robot silent"
     ROBOT_STARTING = "robot starting"
@@ -78,19 +78,19 @@ class Cause(enum.Enum):
 
 
 HELD_CODE = "held"
-# Of the robot's sentence on a hold after a stop by the Operator.
+# Code of the robot's sentence on a hold after a stop by the Operator.
 STOPPED_CODE = "state_machine.held_stop"
-# Red, and no reason not to start: a robot on hold is resumed during the test.
+# Errors that do not prevent a start: a robot on hold is resumed during the test.
 NOT_BLOCKING = ("unencrypted", HELD_CODE)
-# Red, and no reason to stop what runs: the lines of the test are written on the laptop.
+# Errors that do not stop a run: the lines of the test are written on the laptop.
 NOT_BLOCKING_A_RUN = (DISK_FULL_CODE,)
-# In these the robot itself says what is the matter.
+# In these modes the robot itself reports the cause.
 MODE_CODES = ("fault", LINK_LOST_CODE, "not_localized")
 
 
 @dataclass(frozen=True)
 class Reason:
-    """Why not, or a warning. detail: what robot or link say themselves, or a number; may be empty."""
+    """Reason against a start, or a warning. detail: sentence of robot or link, or a number; may be empty."""
 
     cause: Cause
     is_blocking: bool
@@ -99,21 +99,21 @@ class Reason:
 
 @dataclass(frozen=True)
 class Readiness:
-    """The word and its reasons, blocking ones first."""
+    """Readiness word and its reasons, blocking ones first."""
 
     word: ReadinessWord
     reasons: tuple[Reason, ...] = ()
 
     @property
     def can_start(self) -> bool:
-        """True when a test may be started."""
+        """True if a test may be started."""
         return self.word in (ReadinessWord.READY, ReadinessWord.WARNINGS)
 
 
 def readiness_of(robot: RobotSnapshot | None, silent_s: float, phase: Phase, motion: Motion | None = None) -> Readiness:
-    """Readiness by what came from the robot last, silent_s of wall time ago. motion: None knows of no orders.
+    """Return the readiness from the robot's latest data, silent_s of wall time ago. motion: None has no orders.
 
-    What the robot does goes before whether a test can be started, and what keeps it from that before all.
+    Obstacles to the robot's current action have the highest priority, then the action, then the readiness for a test.
     """
     if robot is None or silent_s >= SILENCE_LIMIT_S:
         return Readiness(ReadinessWord.LOST, (Reason(Cause.ROBOT_SILENT, True, f"{silent_s:.0f}"),))
@@ -143,7 +143,7 @@ def _word_of_motion(status: RobotStatus, phase: Phase, motion: Motion | None) ->
 
 
 def _hindrances(status: RobotStatus) -> list[Reason]:
-    """What keeps the robot from going where it was sent."""
+    """Return the reasons why the robot cannot continue to its destination."""
     if status.hold_id:
         held = next((each.text for each in status.notifications if each.code == HELD_CODE), "")
         return [Reason(Cause.HELD, True, held)]
@@ -153,13 +153,13 @@ def _hindrances(status: RobotStatus) -> list[Reason]:
 
 
 def is_held_by_stop(status: RobotStatus) -> bool:
-    """True for a robot on hold for nothing but a stop by the Operator."""
+    """Return True for a robot on hold only because of a stop by the Operator."""
     return bool(status.hold_id) and any(each.code == HELD_CODE and problem.code == STOPPED_CODE
                                         for each in status.notifications for problem in each.problems[:1])
 
 
 def can_resume(readiness: Readiness) -> bool:
-    """True when nothing stands against going on with a paused test."""
+    """Return True if a paused test can be resumed."""
     return readiness.word is ReadinessWord.PAUSED and not any(reason.is_blocking for reason in readiness.reasons)
 
 
@@ -172,7 +172,7 @@ def _robot_reasons(status: RobotStatus, phase: Phase) -> list[Reason]:
         reasons.append(Reason(Cause.ROBOT_STARTING, True))
     if status.mode is Mode.FAULT:
         reasons.append(Reason(Cause.ROBOT_FAULT, True, notified["fault"].text if "fault" in notified else ""))
-    # A robot that has not mapped the Car yet cannot know where it is.
+    # A robot that has not mapped the Car yet cannot know its position.
     if status.mode is Mode.FOLLOWING_WAYPOINT and not status.pose_valid:
         lost = notified.get("not_localized")
         reasons.append(Reason(Cause.POSITION_LOST, True, lost.text if lost else ""))
@@ -185,7 +185,8 @@ def _robot_reasons(status: RobotStatus, phase: Phase) -> list[Reason]:
 
 
 def _battery_reasons(percent: int | None, phase: Phase) -> list[Reason]:
-    """An unknown charge hinders a start; a test that runs continues with a warning, because a person attends it."""
+    """Return the reasons of the battery. An unknown charge prevents a start; a running test continues with a warning,
+    because a person attends it."""
     if percent is None:
         return [Reason(Cause.BATTERY_UNKNOWN, phase not in RUNNING)]
     if is_critical(percent):
@@ -194,7 +195,7 @@ def _battery_reasons(percent: int | None, phase: Phase) -> list[Reason]:
 
 
 def _preflight_reasons(robot: RobotSnapshot, phase: Phase) -> list[Reason]:
-    """A test that runs goes on: somebody looks at the robot meanwhile."""
+    """Return the reasons of the preflight; a running test continues, because a person watches the robot."""
     report = robot.preflight
     if phase in RUNNING:
         return []

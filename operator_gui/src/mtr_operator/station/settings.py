@@ -1,4 +1,4 @@
-"""What the application remembers between two starts."""
+"""Settings that the application remembers between two starts."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,31 +19,31 @@ FORMAT = "mtr-operator settings"
 VERSION = 1
 REMEMBERED_HOSTS = 8
 REMEMBERED_CARS = 100
-# No parameter comes near it.
+# Larger than any parameter.
 _LARGEST = 1e12
-# Letters of a word to choose.
+# Maximum characters of a word to choose.
 _LONGEST = 100
 THEMES = ("system", "light", "dark", "contrast")
 LANGUAGES = ("system", "en", "cs")
 
 
 class NotSettings(ValueError):
-    """A document that holds no settings of this version."""
+    """Document without settings of this version."""
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Replaced as a whole by each change.
+    """Settings, replaced as a whole by each change.
 
     Attributes:
-        connection: of the last success. hosts: robots of earlier successes, newest first.
-        result_folder, progress_folder: where files go.
+        connection: the last successful one. hosts: robots of earlier successes, newest first.
+        result_folder, progress_folder: destinations of files.
         parameters: last used ones by scenario, as in a parameter file.
-        limits: last used limits files by scenario. calibration: record of the robot, None for that of the design.
-        unfinished: progress file of a test that has not come to its end.
-        has_sounds: the application beeps where the Operator has to hear something. speaks: it says what that is.
-        identity: of the test before, as far as the next one may have it in common. identity_day: when it was typed.
-        cars: that were measured with their VIN, and their keys, newest first.
+        limits: last used limits files by scenario. calibration: record of the robot, None for the design's. unfinished:
+        progress file of an unfinished test.
+        has_sounds: the application beeps at alerts. speaks: it also announces them.
+        identity: of the previous test, as far as the next one may share it. identity_day: when it was typed. cars:
+        measured ones with their VIN, and their keys, newest first.
     """
 
     connection: Connection = Connection()
@@ -63,15 +63,15 @@ class Settings:
     speaks: bool = False
 
     def with_car(self, identity: Identity) -> Settings:
-        """Settings that remember a car and its key by the car's VIN; nothing without one."""
+        """Return settings that remember a car and its key by the car's VIN; unchanged without one."""
         if not identity.car_vin:
             return self
         others = (car for car in self.cars if car.car_vin != identity.car_vin)
         return dataclasses.replace(self, cars=(identity.of_its_car(), *others)[:REMEMBERED_CARS])
 
     def with_connection(self, connection: Connection) -> Settings:
-        """Settings after a success with this connection."""
-        # Doing without encryption, and taking part in the Car's bus, are chosen anew at each start.
+        """Return settings after a success with this connection."""
+        # Unencrypted links and normal mode on the Car's bus must be chosen again at each start.
         can = None if connection.can is None else dataclasses.replace(connection.can, is_normal=False)
         connection = dataclasses.replace(connection, robot=dataclasses.replace(connection.robot, is_unencrypted=False),
                                          can=can)
@@ -80,21 +80,21 @@ class Settings:
         return dataclasses.replace(self, connection=connection, hosts=hosts)
 
     def with_parameters(self, scenario: str, parameters: dict[str, Any]) -> Settings:
-        """Settings that remember a scenario's parameters."""
+        """Return settings that remember a scenario's parameters."""
         return dataclasses.replace(self, parameters={**self.parameters, scenario: parameters})
 
     def given(self, scenario: str) -> GivenPaths:
-        """Files that a scenario was given last."""
+        """Return the last files of a scenario."""
         return GivenPaths(self.limits.get(scenario), self.calibration)
 
     def with_given(self, scenario: str, paths: GivenPaths) -> Settings:
-        """Settings that remember what a scenario was given."""
+        """Return settings that remember the files of a scenario."""
         others = {name: path for name, path in self.limits.items() if name != scenario}
         limits = others if paths.limits is None else {**others, scenario: paths.limits}
         return dataclasses.replace(self, limits=limits, calibration=paths.calibration)
 
     def to_document(self) -> dict[str, Any]:
-        """Plain values for a file."""
+        """Return plain values for a file."""
         return {
             "format": FORMAT, "version": VERSION, **dataclasses.asdict(self), "hosts": list(self.hosts),
             "result_folder": str(self.result_folder), "progress_folder": str(self.progress_folder),
@@ -105,7 +105,7 @@ class Settings:
 
 
 def settings_from_document(document: Any) -> Settings:
-    """Settings in a file; NotSettings when they are not."""
+    """Return the settings in a file; NotSettings if it has none."""
     if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
         raise NotSettings("They are of another format or version.")
     try:
@@ -118,7 +118,7 @@ def settings_from_document(document: Any) -> Settings:
             _path(document["result_folder"]), _path(document["progress_folder"]),
             {str(name): _remembered(values) for name, values in document["parameters"].items()},
             _path_or_none(document["unfinished"]),
-            # An earlier version kept none of these.
+            # Earlier versions lack these.
             {str(name): _path(path) for name, path in document.get("limits", {}).items()},
             _path_or_none(document.get("calibration")), _flag(document.get("has_sounds", True)),
             identity_from(document.get("identity", {})), _text(document.get("identity_day", "")),
@@ -130,7 +130,7 @@ def settings_from_document(document: Any) -> Settings:
 
 def _can(document: Any) -> CanChoice:
     first = {name: value for name, value in document.items() if name != "further"}
-    # An earlier version knew one bus.
+    # An earlier version had only one bus.
     further = tuple(read_record(BusChoice, each) for each in document.get("further", ()))
     return dataclasses.replace(read_record(CanChoice, first), further=further)
 
@@ -146,7 +146,7 @@ def _path_or_none(text: Any) -> pathlib.Path | None:
 
 
 def _remembered(values: Any) -> dict[str, Any]:
-    """Parameters as they are remembered; what does not fit a scenario any more is seen when it is used."""
+    """Return remembered parameters; those that no longer match a scenario are detected at their use."""
     known = {str(name): value for name, value in values.items()}
     each = [item for value in known.values() for item in (isinstance(value, list) and value or [value])]
     if not all(value is None or (isinstance(value, (bool, int, float)) and abs(value) < _LARGEST)

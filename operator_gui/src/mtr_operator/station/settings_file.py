@@ -1,4 +1,4 @@
-"""The settings' file, in the folder that the system keeps for it."""
+"""File of the settings, in the system's folder for it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ _MAX_BYTES = 256 * 1024
 
 
 def default_path() -> pathlib.Path:
-    """Where the system keeps what a person has set; it follows the person to another computer on Windows."""
+    """Return the system's path for a person's settings; on Windows it roams to other computers."""
     return platformdirs.user_config_path(FOLDER_NAME, appauthor=False, roaming=True) / FILE_NAME
 
 
 def laboratory_path(settings: pathlib.Path | None = None) -> pathlib.Path:
-    """Where a laboratory writes what it requires of each test: beside these settings."""
+    """Return the path of a laboratory's requirements on each test, next to these settings."""
     return (settings or default_path()).with_name(LABORATORY_NAME)
 
 
 def former_path() -> pathlib.Path:
-    """Where version 0.1 kept it: %APPDATA% on Windows, XDG's configuration folder elsewhere."""
+    """Return the path of version 0.1: %APPDATA% on Windows, XDG's configuration folder elsewhere."""
     if sys.platform == "win32":
         base = pathlib.Path(os.environ.get("APPDATA") or pathlib.Path.home() / "AppData" / "Roaming")
     else:
@@ -46,11 +46,11 @@ def former_path() -> pathlib.Path:
 class SettingsStore:
     """Settings that are on disk after each change.
 
-    former: where an earlier version kept them; they are moved from there once, when nothing is in the new place.
+    former: path of an earlier version; the file is moved from there once, if the new path does not exist.
 
     Attributes:
-        settings: the present ones.
-        problem: one sentence on a file that could not be read or written; empty when all is well.
+        settings: the current ones.
+        problem: one sentence on a file that could not be read or written; empty otherwise.
     """
 
     def __init__(self, path: pathlib.Path, former: pathlib.Path | None = None):
@@ -61,7 +61,8 @@ class SettingsStore:
         self._is_spoilt = False
 
     def load(self) -> None:
-        """Read the file; without a good one the defaults stay, and a bad one is laid aside before anything is kept."""
+        """Read the file; without a valid one the defaults remain, and an invalid one is set aside before the first
+        write."""
         path = self._moved_here()
         try:
             if path.stat().st_size > _MAX_BYTES:
@@ -75,7 +76,7 @@ class SettingsStore:
             self.problem = f"The settings in {path} were not used. {reason}"
 
     def _moved_here(self) -> pathlib.Path:
-        """The file to read: the settings of an earlier version are moved first, or read where they are."""
+        """Return the file to read: settings of an earlier version are moved first, or read at their old path."""
         former = self._former
         if former is None or self._path.exists() or not former.is_file():
             return self._path
@@ -93,17 +94,17 @@ class SettingsStore:
 
     @property
     def profile_folder(self) -> pathlib.Path:
-        """Where profiles of Cars are kept that were learned here."""
+        """Return the folder of Car profiles that were learned here."""
         return self._path.with_name(PROFILE_FOLDER_NAME)
 
     def change(self, settings: Settings) -> None:
-        """Use these from now on, and write them; a failure stands in `problem` and stops nobody."""
+        """Use these settings from now on, and write them; a failure is stored in `problem` and does not interrupt."""
         self.settings = settings
         self.problem = ""
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
             if self._is_spoilt:
-                # A comma too many, or settings of a later version: a person has written them, and can mend them.
+                # Syntax errors of a person, or settings of a later version, which the person can fix.
                 self._lay_aside()
             write_bytes(self._path, _text(settings.to_document()).encode("utf-8"))
         except (OSError, OutputError) as error:
@@ -111,7 +112,7 @@ class SettingsStore:
 
 
     def _lay_aside(self) -> None:
-        """Keep an unusable file under a name of its own, beside those that were laid aside before."""
+        """Rename an unusable file to a unique name, next to earlier ones."""
         if self._path.exists():
             names = (self._path.with_name(f"{FILE_NAME}.bad{count or ''}") for count in itertools.count())
             os.replace(self._path, next(name for name in names if not os.path.lexists(name)))

@@ -1,4 +1,4 @@
-"""One test from its parameters to its protocol, and the progress file that follows it."""
+"""One test from its parameters to its protocol, with its progress file."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ _SECOND = len("2026-11-22T15:36:05")
 
 @dataclass
 class Test:
-    """What is measured, and where its progress is written. While it runs, progress belongs to the links' thread.
+    """Test and the location of its progress. While it runs, progress belongs to the links' thread.
 
-    again: measured lines that are to be measured once more. photos: files that are to be kept with the test.
+    again: measured lines that are to be measured once more. photos: files to be stored with the test.
     """
 
-    # The name would make pytest collect it.
+    # Otherwise pytest would collect it because of its name.
     __test__ = False
 
     scenario: AnyScenario
@@ -61,12 +61,12 @@ class Test:
 
     @property
     def name(self) -> str:
-        """Of the files and the folder of this test."""
+        """Name of the files and the folder of this test."""
         return self.path.stem
 
     @property
     def car(self) -> CarDimensions:
-        """The Car as measured, a usual one before."""
+        """The measured Car, or a usual one before."""
         return self.progress.car or USUAL_CAR
 
     @property
@@ -76,14 +76,14 @@ class Test:
 
     @property
     def is_complete(self) -> bool:
-        """True when no line is left to be measured."""
+        """True if all lines are measured."""
         progress = self.progress
         return (progress.car is not None and len(progress.results) == self.line_count
                 and not progress.to_retry() and not self.again)
 
     @contextlib.contextmanager
     def opened(self) -> Iterator[Store]:
-        """Context in which this application alone writes the files; an OperatorError says why it cannot."""
+        """Context with exclusive write access to the files; OperatorError states why it is denied."""
         with output_folder(self.path.parent), Store(self.path, self.progress) as store:
             self._store = store
             try:
@@ -93,7 +93,7 @@ class Test:
 
     @contextlib.contextmanager
     def written_beside(self, store: Store) -> Iterator[JournalBeside]:
-        """Context within `opened` in which a thread writes; what cannot be kept is told as by JournalBeside."""
+        """Context within `opened` in which a thread writes; JournalBeside reports failures."""
         with JournalBeside(store) as journal:
             self._beside = journal
             try:
@@ -103,13 +103,13 @@ class Test:
 
     @property
     def has_moved(self) -> bool:
-        """True while it runs and its files are not where they shall be since."""
+        """True while it runs and its files have not been moved to their new location."""
         return self._store is not None and self._store.path != self.path
 
     def save(self) -> None:
-        """Write the progress, and its folder if need be; an OperatorError says why that fails."""
+        """Write the progress, and create its folder if needed; OperatorError states a failure."""
         if self._beside is not None:
-            # A progress file knows how far the journal reached: no entry may be on its way.
+            # A progress file contains the position of the journal, so all entries must be written.
             self._beside.wait()
         if self._store is None:
             with self.opened() as store:
@@ -127,7 +127,7 @@ class Test:
         return () if self.progress.identity is None else self.progress.identity.photos
 
     def keep_photos(self) -> None:
-        """Copy those that are waiting beside the progress file; an OperatorError says why that fails."""
+        """Copy the waiting photos next to the progress file; OperatorError states a failure."""
         if self.photos:
             identity = self.progress.identity or Identity()
             photos = keep_photos(self.photos, photo_folder(self.path))
@@ -135,8 +135,7 @@ class Test:
             self._sources, self.photos = self.photos, ()
 
     def annotate(self, annotation: Annotation) -> None:
-        """Keep notes and further photos of a test that does not run; an OperatorError says why that fails. The record
-        says when that was."""
+        """Store notes and further photos of a test that does not run, with the date; OperatorError states a failure."""
         identity = self.progress.identity or Identity()
         annotation.check(identity)
         with self.opened() as store:
@@ -147,7 +146,7 @@ class Test:
             store.save()
 
     def discard_photos(self) -> None:
-        """Nothing was measured: leave no copies; the photos wait for the next run."""
+        """Remove copies of photos if nothing was measured; the photos wait for the next run."""
         if self._sources and self.progress.identity is not None:
             discard_photos(photo_folder(self.path))
             self.progress.identity = dataclasses.replace(self.progress.identity, photos=())
@@ -156,7 +155,7 @@ class Test:
 
 def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: pathlib.Path,
              connection: Connection, given: Given | None = None, *, who: GivenIdentity = NOTHING_SAID) -> Test:
-    """A test that has measured nothing yet; without anything given it has no limits and the design's calibration."""
+    """Return a new test without measurements; by default without limits and with the design's calibration."""
     started = now()
     session = session_record(started, *_means(connection))
     path = free_path(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
@@ -167,7 +166,7 @@ def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: path
 
 
 def report_folder(folder: pathlib.Path, test: Test) -> pathlib.Path:
-    """Folder for the report of a test: of its name, or with a number where something else is.
+    """Return the folder for the report of a test: with its name, or with a number if that is occupied.
 
     Progress files of the command line all have the same name; their reports are named after scenario and start.
     """
@@ -181,28 +180,28 @@ def report_folder(folder: pathlib.Path, test: Test) -> pathlib.Path:
 
 
 def _is_free(place: pathlib.Path, test: Test) -> bool:
-    """True for a new or empty folder, and for the one with this test's report, which holds its record."""
+    """Return True for a new or empty folder, and for the one with this test's report, which contains its record."""
     if os.path.lexists(place / FILE_NAME):
-        # With a journal it is a test, and no report.
+        # With a journal it is a test instead of a report.
         return not os.path.lexists(journal_path(place / FILE_NAME)) and holds_no_other(place / FILE_NAME, test.progress)
     return not os.path.lexists(place) or (place.is_dir() and not any(place.iterdir()))
 
 
 def profile_name(can: CanChoice | None) -> str:
-    """What results call the Car's profile."""
+    """Return the name of the Car's profile for the results."""
     if can is None:
         return ""
     return SUBSTITUTE if can.interface == SIMULATED else can.profile
 
 
 def open_test(path: pathlib.Path) -> Test:
-    """The test in a progress file, to go on with; ProgressFileError says what is wrong with the file."""
+    """Return the test in a progress file, to be resumed; ProgressFileError states a fault of the file."""
     scenario, parameters, progress = open_progress(path, SCENARIOS, to_go_on=True)
     return Test(scenario, parameters, progress, progress_path(path))
 
 
 def go_on(test: Test, connection: Connection) -> None:
-    """Note that the test goes on now, or begins; ProgressFileError when it was begun with other means than these."""
+    """Record that the test starts or resumes now; ProgressFileError if it was started with other equipment."""
     _means(connection).go_on(test.progress)
 
 

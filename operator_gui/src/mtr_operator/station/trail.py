@@ -1,4 +1,4 @@
-"""Where the robot has been, as far as it belongs to the Car's frame of now and was seen."""
+"""Path of the robot, as far as it was observed and is in the current frame of the Car."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from typing import List, Optional, Sequence
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.robot_status import RobotStatus
 
-# Places of the robot in their order; None is a gap, in which nobody saw where it was.
+# Positions of the robot in their order; None is a gap without an observation.
 Places = List[Optional[Point]]
-# Fastest robot times the time between two Statuses, five times over: what is farther apart was not driven in between.
+# Five times the distance of the fastest robot between two Statuses: a larger one was not driven.
 GAP_M = 1.0
 
 
 def thinned(places: Sequence[Point | None]) -> Places:
-    """Every other place; the gaps stay."""
+    """Return every other position; the gaps remain."""
     return [place for index, place in enumerate(places) if place is None or index % 2 == 0]
 
 
 class Passing:
-    """Tells of each Status whether its place goes on with the trail; one per trail."""
+    """Decides for each Status if its position continues the trail; one instance per trail."""
 
     def __init__(self) -> None:
         self._robot_session_id = 0
@@ -28,8 +28,8 @@ class Passing:
         self._last: Point | None = None
 
     def begins_anew(self, status: RobotStatus) -> bool:
-        """True when what was passed before lies in a frame that is no more: the robot was restarted, or maps the Car
-        anew. To be asked before place()."""
+        """Return True if earlier positions are in an obsolete frame: the robot was restarted, or maps the Car again.
+        Call it before places()."""
         is_new = (status.robot_session_id, status.car is not None) != (self._robot_session_id, self._had_car)
         self._robot_session_id, self._had_car = status.robot_session_id, status.car is not None
         if is_new:
@@ -37,7 +37,7 @@ class Passing:
         return is_new
 
     def places(self, status: RobotStatus) -> Places:
-        """What this Status adds: its place, a gap before it where it did not drive there, or nothing."""
+        """Return the additions of this Status: its position, after a gap if it was not driven there, or nothing."""
         before = self._last
         self._last = (status.x, status.y) if status.pose_valid else None
         if self._last is None:

@@ -1,4 +1,4 @@
-"""What the view knows: the newest of robot and Car, and the test at hand. Fed with batches, read by widgets."""
+"""State of the view: the newest data of robot and Car, and the current test. Updated by batches, read by widgets."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -47,36 +47,36 @@ from .sight.view import View, view_of
 from .test import Test
 from .trail import Places, thinned
 
-# The trail is kept at this spacing; one that gets too long loses every other place.
+# Spacing of the trail; a long one is thinned to every other position.
 TRAIL_SPACING_M = 0.1
 TRAIL_LENGTH = 4000
 
 
 class ViewModel:
-    """Belongs to the view's thread.
+    """State of the view, which belongs to the view's thread.
 
     Attributes:
         robot: newest Status of the robot with the Car's locks, None before.
-        trail: places that the robot has passed during the test; None is a gap.
-        test: the test at hand, None before one is started or opened.
-        phase: what is done with it.
+        trail: positions of the robot during the test; None is a gap.
+        test: the current test, None before one is started or opened.
+        phase: of the test.
         results: of the test so far. newest: the one measured last, None before.
         done, total: lines; total is 0 before it is known.
-        line: number of the line that is being measured, 0 while none is.
-        action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
-        outcome: how measuring ended last, None while it has not.
+        line: number of the line that is being measured, 0 without one.
+        action: current action of the robot. trouble: reason of an interruption; empty if the Operator caused it.
+        outcome: last end of measuring, None before.
         judgement: of the lines measured so far, None without limits.
-        prompt: what the Operator is asked to do at the Car's handle or with the extender, None when nothing.
-        is_presence_wanted: the Operator is asked to confirm to be present.
-        motion: what was ordered between two tests.
-        view: what the robot sees, None while it does not say. obstacles: where something stands around the Car.
+        prompt: request to the Operator at the Car's handle or for the extender, None without one.
+        is_presence_wanted: the Operator must confirm presence.
+        motion: orders between two tests.
+        view: the robot's view, None while not reported. obstacles: map of objects around the Car.
         echoes: the LiDARs' newest returns in base_link, also before the Car is mapped.
-        events: what has happened since the start.
-        wanted: the test that is about to begin. free_bytes: room on the disk of the results, None when not known.
+        events: all since the start.
+        wanted: the test that is about to start. free_bytes: on the disk of the results, None if unknown.
     """
 
     def __init__(self, clock: Callable[[], float] = since_boot_s):
-        """clock: wall time in s, which goes on while the laptop sleeps: what was new before is old then."""
+        """clock: wall time in s that continues while the laptop sleeps, so that data from before is old."""
         self._clock = clock
         self._received_s = clock()
         self._time_left = TimeLeft(())
@@ -105,7 +105,7 @@ class ViewModel:
 
     @property
     def current_test(self) -> Test:
-        """The test at hand, for what is done only while there is one."""
+        """The current test, for actions that need one."""
         if self.test is None:
             raise LookupError("no test is at hand")
         return self.test
@@ -117,17 +117,17 @@ class ViewModel:
 
     @property
     def is_stale(self) -> bool:
-        """True when what is known of the robot is not of now any more."""
+        """True if the data of the robot is no longer current."""
         return self.readiness.word is ReadinessWord.LOST
 
     @property
     def readiness(self) -> Readiness:
-        """Whether a test can be started now."""
+        """Readiness for the start of a test."""
         return readiness_of(self.robot, self.silent_s, self.phase, self.motion)
 
     @property
     def checklist(self) -> tuple[Item, ...]:
-        """What has to be right before the robot moves."""
+        """Checklist before the robot moves."""
         answered_s = None if self._answered_s is None else self._clock() - self._answered_s
         mapped = None if self.robot is None else self.robot.status.car
         wanted = self.wanted
@@ -137,22 +137,22 @@ class ViewModel:
 
     @property
     def may_move(self) -> bool:
-        """True while the robot may move by this application: a test runs, or something was ordered, or it does move."""
+        """True while the robot may move by this application: a test runs, an order is active, or it does move."""
         return self.phase in RUNNING or (not self.is_controlled_elsewhere and self.motion.is_possible(self._clock()))
 
     @property
     def is_controlled_elsewhere(self) -> bool:
-        """True while the robot obeys another application, whose stop alone reaches it."""
+        """True while another application controls the robot; only that application's stop has an effect."""
         return self.robot is not None and not self.is_stale and self.robot.status.controlled_by_other
 
     @property
     def notifications(self) -> tuple[Notification, ...]:
-        """Sentences of the robot that hold now."""
+        """Current sentences of the robot."""
         return () if self.robot is None else self.robot.status.notifications
 
     @property
     def mapped_car(self) -> CarDimensions | None:
-        """The Car of the test, else the one that the robot sees; None when none was measured."""
+        """The Car of the test, else the one that the robot sees; None without a measured one."""
         if self.test is not None and self._car is not None:
             return self._car
         return None if self.robot is None else self.robot.status.car
@@ -164,24 +164,24 @@ class ViewModel:
 
     @property
     def forecast(self) -> Forecast | None:
-        """What each line is likely to take and to tell, with what the lines so far say."""
+        """Expected duration and precision of each line, updated by the lines so far."""
         test = self.test
         return None if test is None else part(test.scenario, Forecasting).forecast(test.parameters, self.facts,
                                                                                    self.results)
 
     @property
     def facts(self) -> LockFacts:
-        """Of the connected Car by its profile; of a usual one while none is known."""
+        """Facts of the connected Car by its profile; of a usual one before."""
         known = None if self.robot is None else self.robot.facts
         return USUAL_FACTS if known is None else known
 
     @property
     def percent(self) -> int:
-        """Part of the lines that are measured."""
+        """Percentage of measured lines."""
         return 100 * self.done // self.total if self.total else 0
 
     def take_up(self, test: Test) -> None:
-        """Take up a test, before it is started or continued; InvalidParameter when its lines do not suit the Car."""
+        """Select a test, before it is started or resumed; InvalidParameter if its lines do not match the Car."""
         total = test.line_count
         self.test, self.phase, self._car = test, Phase.PAUSED, test.progress.car
         self.results = tuple(test.progress.results)
@@ -192,27 +192,27 @@ class ViewModel:
         self._judge()
 
     def begin(self) -> None:
-        """The test at hand is started or continued now."""
+        """Start or resume the current test."""
         self.phase, self.trouble, self.outcome = Phase.MEASURING, "", None
         self._expect(is_prepared=False)
 
     def order_motion(self) -> None:
-        """The robot is ordered to do something for which it moves."""
+        """Record an order with motion."""
         self.motion.order(self._clock())
 
     def order_stop(self) -> None:
-        """The robot is ordered to stop."""
+        """Record an order to stop."""
         self.motion.stop()
         if self.phase is Phase.MEASURING:
             self.phase = Phase.STOPPING
 
     def lay_aside(self) -> None:
-        """No test is at hand any more."""
+        """Close the current test."""
         self.test, self.phase, self.results, self.judgement = None, Phase.IDLE, (), None
         self.done = self.total = 0
 
     def apply(self, batch: Batch) -> None:
-        """Learn what has happened."""
+        """Apply the events of a batch."""
         if batch.robot is not None:
             before, self.robot, self._received_s = self.robot, batch.robot, self._clock()
             if before is not None and {before.lock_state, batch.robot.lock_state} == {LockState.LOCKED,
@@ -233,7 +233,7 @@ class ViewModel:
 
     def _pass(self, place: Point | None) -> None:
         before = self.trail[-1] if self.trail else None
-        # Of several gaps in a row one is kept.
+        # Only one of several consecutive gaps is stored.
         if place is None and before is None:
             return
         if place is None or before is None or math.dist(before, place) >= TRAIL_SPACING_M:
@@ -275,7 +275,8 @@ class ViewModel:
             self.is_presence_wanted = event.is_wanted
 
     def _judge(self) -> None:
-        """The progress belongs to the links' thread while the test runs; its limits do not change, its results do."""
+        """Judge the lines. The progress belongs to the links' thread while the test runs; its limits are constant, its
+        results are not."""
         test, car = self.test, self._car
         self.judgement = None
         if test is None or car is None or test.progress.limits is None:
@@ -296,6 +297,6 @@ class ViewModel:
             plan = plan_of(test.scenario, test.parameters, self.mapped_car or USUAL_CAR, is_mapped,
                            self.facts)
             self._time_left = TimeLeft(plan.lines_s, 0.0 if is_prepared else plan.preparation_s)
-        except InvalidParameter:  # the runner will say it
+        except InvalidParameter:  # The runner reports it.
             self._time_left = TimeLeft(())
         self._time_left.begin(self.done, self._clock())

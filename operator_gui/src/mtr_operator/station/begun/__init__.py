@@ -1,2 +1,2 @@
-"""Tests that begin, and those that were begun and not finished."""
+"""Starting tests, and unfinished tests."""
 # SPDX-License-Identifier: Apache-2.0

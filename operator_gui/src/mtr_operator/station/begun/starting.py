@@ -1,4 +1,4 @@
-"""A new test from what the Operator has chosen, remembered for the next one."""
+"""Creates a new test from the Operator's selection, which is remembered for the next one."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..test import Test, new_test
 
 def begun_test(store: SettingsStore, connection: Connection, scenario: AnyScenario, parameters: ScenarioParameters,
                *, paths: GivenPaths, who: GivenIdentity) -> Test:
-    """The test; OperatorError when a file that is given does not suit it any more, or the laboratory requires more."""
+    """Return the new test; OperatorError if a selected file no longer matches it, or the laboratory requires more."""
     check_begin(store, who)
     given = Given(*paths)
     if given.limits is not None:

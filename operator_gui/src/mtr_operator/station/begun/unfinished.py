@@ -1,4 +1,4 @@
-"""The test that was begun and not finished, remembered over starts of the application."""
+"""The unfinished test, remembered over restarts of the application."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..test import Test, open_test
 
 
 class UnfinishedTest:
-    """Kept in the settings."""
+    """Unfinished test, stored in the settings."""
 
     def __init__(self, store: SettingsStore):
         self._store = store
@@ -20,12 +20,12 @@ class UnfinishedTest:
 
     @property
     def path(self) -> pathlib.Path | None:
-        """Its progress file, None when every test was finished."""
+        """Path of its progress file, None if all tests are finished."""
         return self._store.settings.unfinished
 
     @property
     def offered(self) -> Test | None:
-        """The test, also of an earlier start; None when there is none that can be read, or none is wanted now."""
+        """Return the test, also of an earlier start; None if no readable one exists, or it was dismissed."""
         path = self.path
         try:
             test = None if path is None or path == self._dismissed else open_test(path)
@@ -34,21 +34,21 @@ class UnfinishedTest:
         return test if test is not None and test.progress.has_findings else None
 
     def dismiss(self) -> None:
-        """Offer it no more until the next start, or until it is measured further."""
+        """Stop to offer it until the next start, or until it is measured further."""
         self._dismissed = self.path
 
     def remember(self, path: pathlib.Path) -> None:
-        """This test is measured now."""
+        """Remember this test as the current one."""
         self._dismissed = None
         self._keep(path)
 
     def move(self, test: Test) -> None:
-        """What is remembered of a test is written elsewhere now; another one that is remembered stays."""
+        """Update the path of the remembered test after its files were moved; another remembered test is unchanged."""
         if self.path is not None and self.path.name == test.path.name and test.progress.results:
             self._keep(test.path)
 
     def forget(self) -> None:
-        """It is finished, or has measured nothing."""
+        """Forget the test, because it is finished or has no measurements."""
         self._keep(None)
 
     def _keep(self, path: pathlib.Path | None) -> None:

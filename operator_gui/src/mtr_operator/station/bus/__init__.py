@@ -1,2 +1,2 @@
-"""What an engineer of the Car wants to see: its bus, and its locks beside the key's distance."""
+"""Live view of the Car's bus, and of its locks with the key's distance."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Everything that the live view of the Car's bus shows, at one instant."""
+"""Content of the live view of the Car's bus at one instant."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from .time_line import LockEvent, Moment
 
 @dataclass(frozen=True)
 class BusView:
-    """messages, traffic: None where there is no bus to ask. problem: of the bus, one sentence or empty.
+    """Content of the view. messages, traffic: None without a bus. problem: of the bus, one sentence or empty.
 
-    moments, events: the locks beside the key's distance, see TimeLine.
+    moments, events: locks with the key's distance, see TimeLine.
     """
 
     messages: BusMessages | None = None

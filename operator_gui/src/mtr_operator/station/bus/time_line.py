@@ -1,4 +1,4 @@
-"""The Car's locks over time with the key's distance beside them; bounded, whatever comes."""
+"""The Car's locks over time with the key's distance; of bounded size."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from mtr_operator.domain.actions.distance import gap_to_outline
 from mtr_operator.domain.ports import CarEvent, LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
-# Robot time that is kept: a slow approach, its event and the retreat.
+# Stored robot time: a slow approach, its event and the retreat.
 SPAN_S = 60.0
-# Ten Statuses a second, and room for a robot that sends more.
+# Ten Statuses a second, with a reserve for a robot with a higher rate.
 _MAX_MOMENTS = 1200
 _MAX_EVENTS = 64
 
 
 @dataclass(frozen=True)
 class Moment:
-    """One Status: robot time, the locks then, and the key's distance from the Car's outline, None while not known."""
+    """One Status: robot time, lock state, and the key's distance from the Car's outline, None while unknown."""
 
     stamp_s: float
     lock_state: LockState
@@ -31,8 +31,8 @@ class Moment:
 
 @dataclass(frozen=True)
 class LockEvent:
-    """The locks changed at a robot time, with 1 sigma; gap_m: the key's distance from the Car's outline at that time,
-    None when not known. source: what made them move, see CarEvent."""
+    """Lock change at a robot time, with 1 sigma. gap_m: the key's distance from the Car's outline at that time, None if
+    unknown. source: cause of the change, see CarEvent."""
 
     time_s: float
     time_sigma_s: float
@@ -42,7 +42,7 @@ class LockEvent:
 
 
 class TimeLine:
-    """Thread-safe. Begins anew with another start of the robot, and when its clock was set back."""
+    """Time line, thread-safe. It restarts with the robot, and when the robot's clock was set back."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -51,7 +51,7 @@ class TimeLine:
         self._events: collections.deque[LockEvent] = collections.deque(maxlen=_MAX_EVENTS)
 
     def learn(self, status: RobotStatus, events: Sequence[CarEvent], lock_state: LockState) -> None:
-        """A Status, the events that came with it, and the locks at its time."""
+        """Add a Status, its events, and the lock state at its time."""
         with self._lock:
             if status.robot_session_id != self._robot_session_id or \
                     (self._moments and status.stamp_s < self._moments[-1].stamp_s):
@@ -65,7 +65,7 @@ class TimeLine:
             self._forget(status.stamp_s - SPAN_S)
 
     def recent(self) -> tuple[tuple[Moment, ...], tuple[LockEvent, ...]]:
-        """Of the last minute, in the order of time."""
+        """Return the last minute in the order of time."""
         with self._lock:
             return tuple(self._moments), tuple(self._events)
 
@@ -76,7 +76,7 @@ class TimeLine:
             self._events.popleft()
 
     def _gap_at(self, time_s: float, sigma_s: float) -> float | None:
-        """Between the two Statuses around a time; None where nobody saw the key, or the time is not known."""
+        """Return the gap between the two Statuses around a time; None if the key's position or the time is unknown."""
         moments = list(self._moments)
         after = bisect.bisect_left([moment.stamp_s for moment in moments], time_s)
         if not math.isfinite(sigma_s) or after == len(moments):

@@ -1,7 +1,7 @@
-"""The least strength of a press to which the Car answers each time, found by pressing and watching its locks.
+"""Search for the least strength of a press to which the Car reacts each time, by pressing and watching its locks.
 
-From weak to strong, lock and unlock in turn, for each answer changes what the next press has to do. A strength counts
-when several presses in a row are answered; one that is not has the next strength tried.
+From weak to strong, with lock and unlock in turn, because each reaction changes the effect of the next press. A
+strength counts if several consecutive presses succeed; after a failure the next strength is tried.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -16,14 +16,14 @@ from mtr_operator.domain.scenarios.press.button import changing_button
 from ..links.idle_loop import CalibrationRequest
 
 FIRST_STRENGTH, STEP, FULL_STRENGTH = 0.2, 0.1, 1.0
-# Both buttons twice: a strength that works three times out of four is told apart with 68 %.
+# Both buttons twice: a strength that works three times out of four is detected with 68 %.
 IN_A_ROW = 4
-# Robot time after a press for which an answer is waited for, and until the next press; and for the robot's own report.
+# Robot times: limit for the reaction to a press, rest until the next press, limit for the robot's own report.
 ANSWER_LIMIT_S, REST_S, REPORT_LIMIT_S = 2.0, 1.0, 5.0
 
 
 class PressEnd(enum.Enum):
-    """How a search ended."""
+    """End of a search."""
 
     FOUND = "found"
     NO_ANSWER = "no answer"
@@ -34,11 +34,11 @@ class PressEnd(enum.Enum):
 
 
 class PressSearch:
-    """press_s: how long a button is held down.
+    """State of the search. press_s: duration of a press.
 
     Attributes:
-        strength: of the press under way, and the one that was found. presses: made so far.
-        end: how it ended, None while it goes on. error: what the robot says of a press that it refused.
+        strength: of the current press, or the result. presses: made so far.
+        end: result of the search, None while it continues. error: the robot's reason for rejecting a press.
     """
 
     def __init__(self, press_s: float):
@@ -53,11 +53,11 @@ class PressSearch:
         self.error = ""
 
     def stop(self) -> None:
-        """The Operator has stopped the robot, or does not want to go on."""
+        """End the search because the Operator has stopped the robot or cancelled."""
         self.end = self.end or PressEnd.STOPPED
 
     def learn(self, status: RobotStatus, locks: LockState) -> CalibrationRequest | None:
-        """What is to be asked of the robot now, with a Status and the Car's locks at its time; None for nothing."""
+        """Return the next request to the robot, from a Status and the Car's locks at its time; None without one."""
         if self.end is not None:
             return None
         if locks is LockState.UNKNOWN:

@@ -1,4 +1,4 @@
-"""Keeps what a guided calibration finds in the record of the robot at hand, which the next tests use."""
+"""Stores the findings of a guided calibration in the record of the current robot, which the next tests use."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from mtr_operator.storage.given_files import load_calibration
 
 from ..settings_file import SettingsStore
 
-# A finding put into a record.
+# Function that adds a finding to a record.
 Change = Callable[[CalibrationRecord, Signed], CalibrationRecord]
 FOLDER_NAME = "calibration"
 
 
 class RecordKeeper:
-    """Each step is on disk when keep() returns."""
+    """Current record; each step is on disk when keep() returns."""
 
     def __init__(self, store: SettingsStore, today: Callable[[], datetime.date] = datetime.date.today):
         self._store = store
@@ -28,23 +28,23 @@ class RecordKeeper:
 
     @property
     def path(self) -> pathlib.Path | None:
-        """The record in use; None for that of the design."""
+        """Path of the current record; None for the design's."""
         return self._store.settings.calibration
 
     def use(self, path: pathlib.Path | None) -> None:
-        """Go on with another record, or begin a new one; InvalidCalibration says what is wrong with the file."""
+        """Switch to another record, or start a new one; InvalidCalibration states a fault of the file."""
         if path is not None:
             load_calibration(path)
         self._store.change(dataclasses.replace(self._store.settings, calibration=path))
 
     def record(self) -> CalibrationRecord | None:
-        """The record in use; None without one. InvalidCalibration says what is wrong with the file."""
+        """Return the current record; None without one. InvalidCalibration states a fault of the file."""
         return None if self.path is None else load_calibration(self.path)
 
     def keep(self, change: Change, robot: str, by: str) -> pathlib.Path:
-        """Put a finding into the record of the robot, and have the next tests use it; the path.
+        """Add a finding to the record of the robot, which the next tests then use; return its path.
 
-        InvalidCalibration or OutputError says why it cannot be kept.
+        InvalidCalibration or OutputError states why it cannot be stored.
         """
         today, path = self._today(), self.path
         if path is None:

@@ -1,4 +1,4 @@
-"""The test area before a test: without one a real robot neither maps nor tests."""
+"""Check of the test area before a test: without one a real robot neither maps nor tests."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from .finding import Check, Finding, Item, State
 
 
 def test_area(state: AreaState | None) -> Item:
-    """Kept, missing, not needed by a simulated robot, or not told by one of before."""
+    """Return the state of the area: in force, missing, not needed by a simulated robot, or not reported by an older
+    one."""
     if state is None:
         return Item(Check.TEST_AREA, State.UNKNOWN, Finding.AREA_UNTOLD)
     if state.problems or (state.required and not state.is_in_force):

@@ -1,4 +1,4 @@
-"""What the Car's bus says before the robot moves."""
+"""Checks of the Car's bus before the robot moves."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ from mtr_operator.domain.supervision.car_signals import (
 from ..events import RobotSnapshot
 from .finding import Check, Finding, Item, State
 
-# CiA's advice for a bus whose messages are to come in time.
+# CiA's recommendation for a bus with timely messages.
 FULL_BUS = 0.7
-# A mean cycle of the lock message that is so much longer than the profile's is that of another car.
+# A mean cycle of the lock message longer than the profile's by this ratio indicates a different car.
 SLOW_CYCLE = 1.5
-# Keys fall asleep when they have rested for a minute or more (mtr_simulation, honest_handle.yaml).
+# Keys fall asleep after a rest of a minute or more (mtr_simulation, honest_handle.yaml).
 AWAKE_S = 60.0
 
 
 def key(answered_s: float | None) -> Item:
-    """Nothing tells whether a key sleeps but a Car that answers it."""
+    """Check the key, whose sleep is visible only in the Car's reaction."""
     if answered_s is not None and answered_s < AWAKE_S:
         return Item(Check.KEY, State.GOOD, Finding.KEY_ANSWERED, numbers=(answered_s,))
     return Item(Check.KEY, State.UNKNOWN, Finding.KEY_UNKNOWN)
 
 
 def bus(robot: RobotSnapshot) -> Iterator[Item]:
-    """Adapter and traffic, the locks, and whether frames have a time on the robot's clock."""
+    """Check adapter and traffic, the locks, and the time of frames on the robot's clock."""
     traffic = robot.traffic
     if robot.car_problem == NO_ADAPTER:
         yield Item(Check.BUS, State.BAD, Finding.NO_ADAPTER)
@@ -55,7 +55,7 @@ def bus(robot: RobotSnapshot) -> Iterator[Item]:
 
 
 def stop_signals(signals: CarSignals) -> Item:
-    """Whether the signals that stop the robot are received; which of them the profile does not name."""
+    """Check the reception of the signals that stop the robot, and list those that the profile lacks."""
     active = first_active(signals)
     if active is not None:
         return Item(Check.SIGNALS, State.BAD, Finding.SIGNAL_ACTIVE, active.sentence)

@@ -1,4 +1,4 @@
-"""The checklist in words: what was found, and what to do about it; in English, or by the window's translator."""
+"""Texts of the checklist: findings and remedies, in English or by the window's translator."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mtr_operator.domain.clocks.clock_offset import span_text
 
 from .finding import Check, Finding, Item
 
-# Takes context and text; by this name pylupdate5 finds what it is given.
+# Function of context and text; pylupdate5 finds the texts by this name.
 Translate = Callable[[str, str], str]
 
 _CM_PER_M, _MS_PER_S, _MB_PER_GB = 100.0, 1000.0, 1000.0
@@ -18,10 +18,10 @@ _CM_PER_M, _MS_PER_S, _MB_PER_GB = 100.0, 1000.0, 1000.0
 
 @dataclass(frozen=True)
 class Speech:
-    """How a view speaks; as it is, English.
+    """Language of a view; by default English.
 
-    translate: of the sentences here. sentence: translates one from elsewhere, word: one of the domain's words.
-    number: takes a value and its decimals. duration: takes seconds.
+    translate: for the sentences here. sentence: translates one from elsewhere, word: one of the domain's words. number:
+    formats a value with decimals. duration: formats seconds.
     """
 
     translate: Translate = lambda context, text: text
@@ -35,7 +35,7 @@ ENGLISH = Speech()
 
 
 def check_title(check: Check, speech: Speech = ENGLISH) -> str:
-    """What is looked at."""
+    """Return the title of a check."""
     translate = speech.translate
     return {
         Check.LINK: translate("Check", "Link"), Check.ENCRYPTION: translate("Check", "Encryption"),
@@ -61,9 +61,9 @@ def check_title(check: Check, speech: Speech = ENGLISH) -> str:
 
 
 def check_text(item: Item, speech: Speech = ENGLISH) -> str:
-    """What was found, in a sentence."""
+    """Return the finding as a sentence."""
     translate = speech.translate
-    # Robot, link and file may say braces.
+    # Texts of robot, link and file may contain braces.
     finding, said = item.finding, speech.sentence(item.said).replace("{", "{{").replace("}", "}}")
     first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
     texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said),
@@ -174,7 +174,7 @@ def _of_unseen(translate: Translate) -> dict[Finding, str]:
 
 
 def _of_conditions(translate: Translate, said: str) -> dict[Finding, str]:
-    """Operating conditions, as docs/safety/hazards.yaml has them."""
+    """Return the texts of the operating conditions, as in docs/safety/hazards.yaml."""
     return {
         Finding.AREA_UNSEEN: translate("Check", "Closed or marked, 2 m free around the paths, no edge, stairs, dock or "
                                                 "kerb inside?"),
@@ -192,12 +192,12 @@ def _of_conditions(translate: Translate, said: str) -> dict[Finding, str]:
 
 
 def condition_title(name: str, speech: Speech = ENGLISH) -> str:
-    """An operating condition in a word or two."""
+    """Return the title of an operating condition, a word or two."""
     return check_title(Check[name.upper()], speech)
 
 
 def condition_text(name: str, speech: Speech = ENGLISH) -> str:
-    """What an operating condition demands, as a question."""
+    """Return the requirement of an operating condition, as a question."""
     if name == "ground":
         return speech.translate("Check", "Dry or wet asphalt or concrete, steps and cables below 15 mm, slope at most "
                                          "2 degrees?")
@@ -259,7 +259,7 @@ def _of_files(translate: Translate, said: str) -> dict[Finding, str]:
 
 
 def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
-    """What to do about it; empty where nothing is to be done, or the sentence says it already."""
+    """Return the remedy; empty if nothing has to be done, or the sentence contains it."""
     translate = speech.translate
     return {
         Finding.LINK_SILENT: translate("Check", "Check the Wi-Fi and that the robot is on; the link comes back by "
@@ -329,7 +329,7 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
 
 
 def _shown(speech: Speech, item: Item, value: float, index: int = 0) -> str:
-    """A number in the unit of its sentence."""
+    """Return a number in the unit of its sentence."""
     if math.isnan(value):
         return ""
     if item.check is Check.SIZE and index:

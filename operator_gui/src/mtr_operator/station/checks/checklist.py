@@ -1,4 +1,4 @@
-"""What has to be right before the robot moves: one finding per item, from what is known now; no Qt."""
+"""Checklist before the robot moves: one finding per item, from the current data; no Qt."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from . import area_check, car_checks, robot_checks
 from .finding import Check, Finding, Item, State
 from .preflight_check import preflight
 
-# A long test with its pictures takes some 20 MB, and its journal is written before the robot goes on.
+# A long test with its pictures needs some 20 MB, and its journal is written before the robot continues.
 LEAST_FREE_BYTES, FEW_FREE_BYTES = 50_000_000, 500_000_000
 _BYTES_PER_MB = 1e6
-# No sensor of the robot shows these, so a person has to check them before it drives around the Car.
+# Checks without a sensor of the robot, which a person must do before it drives around the Car.
 UNSEEN = {Check.STOP_TRIAL: Finding.STOP_UNTRIED, Check.GROUND: Finding.GROUND_UNSEEN,
           Check.CABLES: Finding.CABLES_UNSEEN, Check.OPENINGS: Finding.OPENINGS_UNSEEN,
           Check.FITTINGS: Finding.FITTINGS_UNSEEN,
           Check.AREA: Finding.AREA_UNSEEN, Check.PEOPLE: Finding.PEOPLE_UNSEEN, Check.WEATHER: Finding.WEATHER_UNSEEN,
           Check.LIGHT: Finding.LIGHT_UNSEEN, Check.CAR: Finding.CAR_UNSEEN,
           Check.ATTENDANCE: Finding.ATTENDANCE_UNSEEN}
-# Items that ask for an operating condition, see domain.supervision.conditions.
+# Checks that request an operating condition, see domain.supervision.conditions.
 CONDITION_OF = {Check[name.upper()]: name for name in CONDITIONS}
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """The test that is about to begin. plan: None before one is chosen. limits: how many are loaded, 0 for none;
-    limits_problem: why they do not suit. ways: which of its lines are free, None before the Car is mapped.
-    confirmed: operating conditions that a person has confirmed."""
+    """Test that is about to start. plan: None before one is selected. limits: number of loaded ones, 0 for none;
+    limits_problem: reason why they do not match. ways: free lines, None before the Car is mapped. confirmed: operating
+    conditions that a person has confirmed."""
 
     plan: Plan | None = None
     limits: int = 0
@@ -45,10 +45,10 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Facts:
-    """What is known before the robot moves.
+    """Data available before the robot moves.
 
-    silent_s: wall time since the newest Status. answered_s: wall time since the Car's locks moved, None when nobody has
-    seen that. free_bytes: on the disk of the results, None when not known.
+    silent_s: wall time since the newest Status. answered_s: wall time since the Car's locks moved, None if that was not
+    observed. free_bytes: on the disk of the results, None if unknown.
     """
 
     robot: RobotSnapshot | None
@@ -59,7 +59,7 @@ class Facts:
 
 
 def checklist(facts: Facts) -> tuple[Item, ...]:
-    """All items in their order."""
+    """Return all items in their order."""
     robot = facts.robot
     items = list(_of_robot(robot, facts) if robot is not None and facts.silent_s < SILENCE_LIMIT_S
                  else _of_silence(facts.silent_s))
@@ -70,7 +70,7 @@ def checklist(facts: Facts) -> tuple[Item, ...]:
 
 
 def hindrances(items: tuple[Item, ...]) -> tuple[Item, ...]:
-    """Those with which no test begins."""
+    """Return the items that prevent the start of a test."""
     return tuple(item for item in items if item.state is State.BAD)
 
 
@@ -117,7 +117,8 @@ def _encryption(robot: RobotSnapshot) -> Item:
 
 
 def _way(ways: Ways | None) -> Item:
-    """No reason not to begin: what stands there may go, and the robot drives around it or refuses."""
+    """Check the lines; obstacles do not prevent a start, because they may leave, and the robot avoids or refuses
+    them."""
     if ways is None:
         return Item(Check.WAY, State.UNKNOWN, Finding.WAY_TO_COME)
     if ways.hindered:

@@ -1,4 +1,4 @@
-"""What a look at one thing before the robot moves may find."""
+"""Possible findings of the checks before the robot moves."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 
 class Check(enum.Enum):
-    """What is looked at, in the order in which it is shown."""
+    """Checks, in the order of the list."""
 
     LINK = "link"
     ENCRYPTION = "encryption"
@@ -43,8 +43,8 @@ class Check(enum.Enum):
 
 
 class State(enum.Enum):
-    """GOOD: as it should be. NOTE: hinders nothing, and the Operator should know. UNKNOWN: nobody can say. BAD: no test
-    begins like this."""
+    """State of a finding. GOOD: as required. NOTE: information for the Operator that prevents nothing. UNKNOWN: not
+    determined. BAD: prevents the start of a test."""
 
     GOOD = "good"
     NOTE = "note"
@@ -53,7 +53,7 @@ class State(enum.Enum):
 
 
 class Finding(enum.Enum):
-    """What was found; a view has a sentence for each, and an advice where something is to be done."""
+    """Findings; a view has a sentence for each, and a remedy if something has to be done."""
 
     UNHEARD = "unheard"
     LINK_ALIVE = "link alive"
@@ -150,8 +150,8 @@ class Finding(enum.Enum):
 class Item:
     """One line of the list.
 
-    said: what robot, link or file say of it themselves, translatable. numbers: that the view's sentence holds, in the
-    finding's order, in s, m, percent, MB or counts. parts: all sentences of what was looked at elsewhere.
+    said: translatable sentence of robot, link or file. numbers: of the view's sentence, in the finding's order, in s,
+    m, percent, MB or counts. parts: all sentences of a check that was done elsewhere.
     """
 
     check: Check

@@ -1,4 +1,4 @@
-"""What the robot's last preflight says before a test."""
+"""Check of the robot's last preflight before a test."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from .finding import Check, Finding, Item, State
 
 
 def preflight(robot: RobotSnapshot) -> Item:
-    """Good, old, bad, at rest only, or not made; a simulation needs none, a real robot one in motion."""
+    """Return the state: good, old, bad, only at rest, or missing. A simulation needs none, a real robot one in
+    motion."""
     report, steady_s = robot.preflight, robot.status.steady_s
     is_real = not is_simulated_robot(robot.status)
     lacking = State.BAD if is_real else State.UNKNOWN

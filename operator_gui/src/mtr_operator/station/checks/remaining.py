@@ -1,4 +1,4 @@
-"""What is left of the test at hand: before a robot goes on the same is looked at as before it begins."""
+"""Rest of the current test: before a robot resumes, the same checks apply as before the start."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .checklist import Wanted
 
 
 class Remaining:
-    """Works out anew only what has changed: the checklist is looked at with every Status."""
+    """Cached computation, which only updates changed parts: the checklist is evaluated with every Status."""
 
     def __init__(self) -> None:
         self._planned_for: tuple[object, ...] = ()
@@ -28,7 +28,7 @@ class Remaining:
 
     def of(self, test: Test, results: Sequence[LineResult], car: CarDimensions | None, facts: LockFacts,
            obstacles: ObstacleMap) -> Wanted:
-        """The lines without a valid result, as a test that is about to begin; car: None before it is mapped."""
+        """Return the lines without a valid result, as a test that is about to start; car: None before it is mapped."""
         measured = {str(result.number) for result in results if not result.invalid_count}
         planned_for = (test.path, measured, car, facts)
         if planned_for != self._planned_for:
@@ -42,7 +42,8 @@ class Remaining:
 
 
 def _rest(test: Test, measured: set[str], car: CarDimensions | None, facts: LockFacts) -> Plan | None:
-    """None when nothing is left, or the parameters do not suit this Car: the runner will say so."""
+    """Return the plan of the rest; None if nothing is left, or the parameters do not match this Car, which the runner
+    reports."""
     try:
         plan = plan_of(test.scenario, test.parameters, car or USUAL_CAR, car is not None, facts)
     except InvalidParameter:

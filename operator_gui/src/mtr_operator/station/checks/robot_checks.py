@@ -1,4 +1,4 @@
-"""What a Status says of the robot before it moves."""
+"""Checks of the robot's Status before it moves."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from ..readiness import ERROR, MODE_CODES, NOT_BLOCKING, WARNING
 from .finding import Check, Finding, Item, State
 
 _BOARD_CODES = ("peripherals", "peripherals_silent")
-# Part of the codes of the robot's sentences on them.
+# Part of the codes of the robot's sentences about LiDARs.
 _LIDAR = "lidar"
 
 
 def condition(status: RobotStatus) -> Iterator[Item]:
-    """Whether it can be ordered, and what it says that belongs to no other item."""
+    """Check if the robot accepts orders, and list its sentences that belong to no other item."""
     said = {notification.code: notification.text for notification in status.notifications}
     troubles = []
     if status.controlled_by_other:
@@ -44,7 +44,7 @@ def condition(status: RobotStatus) -> Iterator[Item]:
 
 
 def _warnings(status: RobotStatus) -> list[Notification]:
-    """What the robot says beside what other items show."""
+    """Return the robot's sentences that other items do not show."""
     return [each for each in status.notifications
             if each.severity >= WARNING and each.code not in (*MODE_CODES, "low_battery")]
 
@@ -55,8 +55,8 @@ def _severity(notification: Notification) -> State:
 
 
 def emergency_stop(status: RobotStatus) -> Item:
-    """The one by hand, without which no test begins on a real robot; while it is engaged the robot says itself what
-    that hinders."""
+    """Check the hand-held stop, which a test on a real robot requires; while it is engaged, the robot itself reports
+    the effect."""
     stop = status.emergency_stop
     if any(each.code == NO_STOP_CODE for each in status.notifications):
         return Item(Check.EMERGENCY_STOP, State.BAD, Finding.STOP_MISSING)
@@ -69,7 +69,7 @@ def emergency_stop(status: RobotStatus) -> Item:
 
 
 def position(status: RobotStatus) -> Item:
-    """Where it is beside the Car; one that has not mapped the Car yet cannot know."""
+    """Check the robot's position relative to the Car; before mapping the Car it is unknown."""
     if status.pose_valid:
         numbers = () if math.isnan(status.position_sigma_m) else (status.position_sigma_m,)
         return Item(Check.POSITION, State.GOOD, Finding.POSITION_KNOWN, numbers=numbers)
@@ -80,7 +80,7 @@ def position(status: RobotStatus) -> Item:
 
 
 def size(car: CarDimensions | None, plan: Plan | None = None) -> Item:
-    """Whether a data sheet said how large the Car is, as well as the smallest distance of the plan requires."""
+    """Check the Car's size: the smallest distance of the plan may require a data sheet."""
     if car is None:
         return Item(Check.SIZE, State.UNKNOWN, Finding.SIZE_TO_COME)
     nearness = plan.nearness if plan is not None else None
@@ -95,7 +95,7 @@ def size(car: CarDimensions | None, plan: Plan | None = None) -> Item:
 
 
 def parts(status: RobotStatus) -> Iterator[Item]:
-    """LiDARs, and the board of lift and buttons: the robot says nothing of them while they work."""
+    """Check LiDARs, and the board of lift and buttons: the robot reports only their faults."""
     warnings = _warnings(status)
     of_lidars = [each for each in warnings if _is_of_lidar(each)]
     of_board = [each for each in warnings if each.code in _BOARD_CODES]
@@ -110,7 +110,7 @@ def _is_of_lidar(notification: Notification) -> bool:
 
 
 def clock(ahead_s: float) -> Item:
-    """How far its clock is from the laptop's, which hinders nothing; NaN: it tells no time of day."""
+    """Report the offset of its clock from the laptop's, which prevents nothing; NaN: it has no time of day."""
     if math.isnan(ahead_s):
         return Item(Check.ROBOT_CLOCK, State.UNKNOWN, Finding.ROBOT_CLOCK_SIMULATED)
     said = offset_sentence(ahead_s)
@@ -119,7 +119,7 @@ def clock(ahead_s: float) -> Item:
 
 
 def battery(percent: int | None, plan: Plan | None) -> Item:
-    """Whether it lasts for the plan, or at all."""
+    """Check if the charge is sufficient for the plan, or at all."""
     if percent is None:
         return Item(Check.BATTERY, State.BAD, Finding.BATTERY_UNKNOWN)
     if is_critical(percent):

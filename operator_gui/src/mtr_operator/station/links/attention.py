@@ -1,20 +1,20 @@
-"""Notices that the view takes nothing any more: its thread hangs, and its Stop with it."""
+"""Detects a view that no longer takes events: its thread hangs, and its Stop with it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import time
 from typing import Callable
 
-# The view takes four times a second at least what has come, and 0.7 s of work for another language block it longest.
+# The view takes events at least four times a second; its longest block is 0.7 s, for a change of the language.
 LIMIT_S = 1.0
-# Two looks are nearer to each other, unless the whole application stood: then the view has had no time either.
+# A longer interval between two checks means that the whole application was stopped, and so was the view.
 _MAX_STEP_S = 0.5
 
 
 class Attention:
-    """Asked again and again by the thread that has the robot move.
+    """Watch that the thread which moves the robot checks periodically.
 
-    taken: how often the view has taken what has come. clock: steady, s.
+    taken: number of times that the view has taken its events. clock: steady, s.
     """
 
     def __init__(self, taken: Callable[[], int], clock: Callable[[], float] = time.monotonic):
@@ -24,7 +24,7 @@ class Attention:
         self._absent_s = 0.0
 
     def look(self) -> str:
-        """What is wrong, a sentence, as long as it is; empty when nothing is."""
+        """Return a sentence while the view hangs; empty otherwise."""
         taken, now_s = self._taken(), self._clock()
         passed_s = min(now_s - self._looked_s, _MAX_STEP_S)
         self._absent_s = 0.0 if taken != self._seen else self._absent_s + passed_s

@@ -1,4 +1,4 @@
-"""What the application asks of the robot while no test runs: nothing, to stand, or what the Operator calibrates."""
+"""Requests to the robot while no test runs: none, a stop, or the Operator's calibration."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from ..bus.time_line import TimeLine
 from ..events import RobotSnapshot, known_facts
 from .watched_link import WatchedRobotLink
 
-# Wall time after which an order gives way to the application that controls the robot. Statuses of the first moments may
-# be older than the end of this application's own last session.
+# Wall time after which an order yields to another application that controls the robot. The first Statuses may precede
+# the end of this application's own last session.
 FOREIGN_S = 1.0
-# Wall time after which the robot lets another application take over from a silent one.
+# Wall time of silence after which the robot accepts another application.
 ABANDONED_S = 3.0
-# Wall time for which one step waits for a Status; the desired state is sent again after that.
+# Wall time for which one step waits for a Status; then the desired state is sent again.
 STEP_S = 0.1
 
 
 class CarRequest(enum.Enum):
-    """What the Operator has the robot do with the Car between two tests."""
+    """Requests of the Operator on the Car between two tests."""
 
     CHECK = "check where it stands"
     MAP = "map it again"
@@ -38,7 +38,7 @@ class CarRequest(enum.Enum):
 
 @dataclass(frozen=True)
 class CalibrationRequest:
-    """What the Operator tries. None and no button leave height and buttons as they are."""
+    """Calibration request. None and no button leave height and buttons unchanged."""
 
     key_height_m: float | None
     buttons: tuple[int, ...]
@@ -47,10 +47,11 @@ class CalibrationRequest:
 
 
 class IdleLoop:
-    """One Status, one answer; before a request the answer only watches, so that another application can have the robot.
+    """One Status, one answer. Before a request the answers only watch, so that another application can control the
+    robot.
 
     Attributes:
-        claims: true while this application wants the robot: for a paused test, or since an order.
+        claims: True while this application claims the robot: for a paused test, or after an order.
     """
 
     def __init__(self, robot: WatchedRobotLink, car: CarLink, resumed_hold: Callable[[int], int] = lambda _: 0,
@@ -65,12 +66,12 @@ class IdleLoop:
         self._has_status = False
         self.claims, self._released_hold = claims, resumed_hold(0)
         self._clock = clock
-        # When the robot was last seen without another application, and without one that has fallen silent.
+        # Last times at which the robot had no other controller, and no silent one.
         self._free_s = self._attended_s = clock()
         self.silent_s = 0.0
 
     def calibrate(self, request: CalibrationRequest) -> None:
-        """Have the robot do this from now on; what a stop has ended stays ended."""
+        """Request this from now on; a stop remains effective for earlier requests."""
         self._claim()
         press = self._desired.press
         if request.buttons:
@@ -79,11 +80,11 @@ class IdleLoop:
         height_m = self._desired.key_height_m if request.key_height_m is None else request.key_height_m
         self._desired = replace(self._desired, key_height_m=height_m, press=press)
         if self._desired.stop:
-            # The robot would go on mapping or checking under an order that still stands.
+            # Otherwise the robot would resume mapping or checking under the previous order.
             self._desired = replace(self._desired, stop=False, map_car_id=0, check_car_id=0)
 
     def request_car(self, request: CarRequest) -> None:
-        """Have the robot check or map the Car, or stop doing so; it moves for that."""
+        """Request a check or mapping of the Car, or its end; the robot moves for that."""
         self._claim()
         if request is CarRequest.CHECK:
             self._check_id += 1
@@ -93,19 +94,19 @@ class IdleLoop:
                                 map_car_id=self._map_id)
 
     def set_area(self, corners: tuple[Point, ...], origin_id: int) -> None:
-        """Have the robot keep inside this area from now on, without corners in none; it does not move for that."""
+        """Request that the robot stays in this area from now on, without corners in none; it does not move for that."""
         self._claim()
         self._area_id += 1
         self._desired = replace(self._desired, area=AreaOrder(self._area_id, origin_id, corners))
 
     def leave_service(self, agreement_id: int) -> None:
-        """Release service mode for the Operator; nothing moves for that."""
+        """Release service mode for the Operator, without motion."""
         self._claim()
         self._desired = replace(self._desired, stop=True, leave_service_id=agreement_id)
 
     @property
     def has_order(self) -> bool:
-        """True while something is wanted for which the robot may move."""
+        """True while an order is active for which the robot may move."""
         wanted = self._desired
         key = (wanted.key_height_m, wanted.press)
         return not wanted.stop and any([wanted.map_car_id, wanted.check_car_id, *(each is not None for each in key)])
@@ -115,7 +116,7 @@ class IdleLoop:
         self._car = car
 
     def step(self) -> RobotSnapshot | None:
-        """Take a Status and answer it; None when none came."""
+        """Take a Status and answer it; return None without one."""
         status = self._robot.next_status(STEP_S)
         if status is None:
             self.silent_s += STEP_S
@@ -154,7 +155,7 @@ class IdleLoop:
         self._desired = replace(self._desired, resume_hold_id=released)
 
     def _give_way(self, status: RobotStatus) -> None:
-        """Drop what is ordered while another application keeps the robot: it would begin when that one ends."""
+        """Drop orders while another application controls the robot: they would start when that one ends."""
         now_s = self._clock()
         if not status.is_abandoned:
             self._attended_s = now_s
@@ -165,7 +166,7 @@ class IdleLoop:
             self._robot.give_way()
 
     def _forget_service(self, status: RobotStatus) -> None:
-        """A release that has expired or has ended service mode is of no further use."""
+        """Discard a release that has expired or has ended service mode."""
         released = self._desired.leave_service_id
         if released and (status.service is None or status.service.agreement_id != released):
             self._desired = replace(self._desired, leave_service_id=0)

@@ -19,12 +19,12 @@ from .watched_link import WatchedRobotLink
 
 
 class Links:
-    """Attributes: car: the Car's link, or that of no Car. idle: what answers the robot while no test runs, None while
-    no session is open. time_line: what the Car's locks did. has_paused: an interrupted test keeps the robot."""
+    """Links. Attributes: car: the Car's link, or the link of an absent Car. idle: answers the robot while no test runs,
+    None without a session. time_line: history of the Car's locks. has_paused: an interrupted test claims the robot."""
 
     def __init__(self, connection: Connection, opener: LinkOpener, stop: StopOrder, event_log: EventLog,
                  released: Callable[[int], int]):
-        """stop: goes out on the robot's link. released: newest hold that the Operator has ended."""
+        """stop: is sent on the robot's link. released: newest hold that the Operator has ended."""
         self._connection, self._opener = connection, opener
         self._stop, self._event_log, self._released = stop, event_log, released
         self._robot: WatchedRobotLink | None = None
@@ -34,7 +34,7 @@ class Links:
         self.has_paused = False
 
     def open(self) -> LinkRefused | None:
-        """Open both; what refuses."""
+        """Open both; return a refusal."""
         part = "car"
         try:
             self.car = self._opener.car(self._connection.can)
@@ -47,7 +47,7 @@ class Links:
             return LinkRefused("address" if part == "robot" else part, str(error))
         except OperatorError as error:
             return LinkRefused(part, str(error), _bus_of(error))
-        # An adapter's driver may raise whatever it likes, and a view waits for an answer.
+        # An adapter's driver may raise any exception, and the view waits for an answer.
         except Exception as error:
             logging.exception("The links were not opened because of a defect.")
             return LinkRefused(part, f"The application has a defect: {type(error).__name__}: {error}")
@@ -55,18 +55,18 @@ class Links:
         return None
 
     def new_robot(self) -> WatchedRobotLink:
-        """Link to the robot that is not open yet."""
+        """Return a link to the robot that is not open yet."""
         return WatchedRobotLink(self._opener.robot(self._connection.robot), self._stop)
 
     def open_robot(self) -> None:
-        """Open a session of its own for each purpose, for ids of requests begin anew; OperatorError."""
+        """Open a separate session for each purpose, because ids of requests restart; OperatorError."""
         robot = self.new_robot()
         robot.connect()
         self._robot = robot
         self.idle = IdleLoop(robot, self.car, self._released, self._event_log, self.time_line, claims=self.has_paused)
 
     def change_car(self, choice: CanChoice | None) -> LinkRefused | None:
-        """Use another adapter for the Car; what refuses, and there is no Car then."""
+        """Use another adapter for the Car; return a refusal, after which the Car is absent."""
         # The new one may be the same adapter.
         self.car.close()
         self.car = self._opener.car(None)

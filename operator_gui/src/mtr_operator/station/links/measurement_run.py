@@ -1,4 +1,4 @@
-"""One run of a test, in a session of its own on the link, and how it ended."""
+"""One run of a test, in its own session on the link, and its end."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ from .watched_link import WatchedRobotLink
 
 @dataclass(frozen=True)
 class Answers:
-    """What the Operator says during a test.
+    """Inputs of the Operator during a test.
 
-    resumed_hold: see ControlLoop. person: who takes the Car's handle, switcher: who
-    switches an extender; None when nobody is there. skipping, supervision: see ControlLoop.
+    resumed_hold: see ControlLoop. person: pulls the Car's handle, switcher: switches an extender; None without a
+    person. skipping, supervision: see ControlLoop.
     """
 
     resumed_hold: Callable[[int], int] = lambda _: 0
@@ -51,12 +51,12 @@ NO_ANSWERS = Answers()
 
 
 class MeasurementRun:
-    """Measures what is left of a test with the runner of the command line."""
+    """Run of the rest of a test with the runner of the command line."""
 
     def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox,
                  answers: Answers = NO_ANSWERS, *, event_log: EventLog | None = None,
                  standstill: Standstill | None = None, time_line: TimeLine | None = None):
-        """standstill: notices that the laptop slept; None for the loop's own. time_line: what the Car's locks did."""
+        """standstill: detects that the laptop slept; None for the loop's own. time_line: history of the Car's locks."""
         self._test = test
         self._new_robot = new_robot
         self._car = car
@@ -67,7 +67,7 @@ class MeasurementRun:
         self._time_line = time_line or TimeLine()
 
     def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> RunEnded:
-        """Measure; never raises, for what is measured has to be reported in any case."""
+        """Measure; never raises, because the results must be reported in any case."""
         test = self._test
         outcome, text = self._outcome(is_cancelled, after_status)
         return RunEnded(outcome, text, tuple(test.progress.results))
@@ -86,7 +86,7 @@ class MeasurementRun:
             return Outcome.NOT_SAVED, str(error)
         except OperatorError as error:
             return Outcome.FAILED, str(error)
-        # A defect must not take the window, and what was measured, with it.
+        # A defect must not close the window or lose the results.
         except Exception as error:
             logging.exception("The test ended by a defect of the application.")
             return Outcome.FAILED, f"The application has a defect: {type(error).__name__}: {error}"
@@ -125,7 +125,7 @@ class MeasurementRun:
 
     def _save(self, journal: JournalBeside) -> None:
         if self._test.has_moved:
-            # All is safe, so that nothing is written meanwhile.
+            # All results are durable, so no other writer is active.
             self._test.save()
         else:
             journal.save()

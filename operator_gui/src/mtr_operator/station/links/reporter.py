@@ -1,4 +1,4 @@
-"""What a running test reports to the view, put into the mailbox."""
+"""Reports of a running test to the view, by the mailbox."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The Operator's stop: it leaves in the thread that gives it, and nothing that moves the robot leaves after it."""
+"""The Operator's stop: it is sent in the calling thread, and no motion command is sent after it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from mtr_operator.domain.requests import DesiredState
 
 
 class StopOrder:
-    """Thread-safe; one per application, whatever sessions come and go.
+    """Stop order, thread-safe; one per application over all sessions.
 
-    While it is in force each desired state that leaves is a stop. An order of the Operator lifts it, unless a stop was
-    given after that order.
+    While it is in force each sent desired state is a stop. An order of the Operator lifts it, unless a stop was given
+    after that order.
     """
 
     def __init__(self) -> None:
@@ -32,12 +32,12 @@ class StopOrder:
 
     @property
     def ticket(self) -> int:
-        """What an order that is given now shows to lift()."""
+        """Return the ticket of an order that is given now, for lift()."""
         return self._count
 
     def give(self, *, enters_service: bool = False) -> None:
-        """Send a stop now, from any thread, whatever the link's own thread waits for. Without a session there is nobody
-        to send it to, and the robot stands. enters_service: it also orders service mode until that is active."""
+        """Send a stop now, from any thread, even if the link's own thread is waiting. Without a session there is no
+        recipient, and the robot is stopped. enters_service: it also orders service mode until that is active."""
         with self._lock, contextlib.suppress(OperatorError):
             self._count += 1
             self._is_in_force = True
@@ -46,29 +46,30 @@ class StopOrder:
                 self._send(self._stopped(self._newest))
 
     def entered_service(self) -> None:
-        """The robot is in service mode: a stop that remains in force does not order it again."""
+        """Record that service mode is active: a stop that remains in force does not order it again."""
         with self._lock:
             self._enters_service = False
 
     def lift(self, ticket: int) -> bool:
-        """The order with this ticket is carried out now; False when a stop came after it, and it is not to be."""
+        """Execute the order with this ticket; return False if a later stop forbids it."""
         with self._lock:
             self._is_in_force = ticket != self._count
             self._enters_service = self._enters_service and self._is_in_force
             return not self._is_in_force
 
     def withdraw(self) -> None:
-        """The stop has nobody left to reach; it stays in force for each order that was given before it, see lift()."""
+        """Record that the stop has no recipient; it stays in force for each order that was given before it, see
+        lift()."""
         with self._lock:
             self._is_in_force = self._enters_service = False
 
     def attach(self, send: Callable[[DesiredState], None]) -> None:
-        """A session begins: this sends its desired states."""
+        """Start a session whose desired states are sent by this function."""
         with self._lock:
             self._send, self._newest = send, DesiredState()
 
     def detach(self) -> None:
-        """The session ends."""
+        """End the session."""
         with self._lock:
             self._send = None
 

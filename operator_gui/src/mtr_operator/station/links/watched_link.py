@@ -1,4 +1,4 @@
-"""A robot link that remembers where it has sent the robot, and lets the Operator's stop pass everything else."""
+"""Robot link that remembers the robot's destination, and gives the Operator's stop priority."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .stop_order import StopOrder
 
 
 class WatchedRobotLink(RobotLink):
-    """Hands everything on, while a stop is in force as a stop.
+    """Forwards desired states; overrides them with a stop while one is in force.
 
     Attributes:
         waypoint: the newest one that was sent, None before.
@@ -46,12 +46,12 @@ class WatchedRobotLink(RobotLink):
         self._stop.pass_on(self._link.send, desired)
 
     def watch(self) -> None:
-        """See RobotLink; a stop that is in force leaves instead."""
+        """See RobotLink; a stop in force is sent instead."""
         self.waypoint = None
         self._stop.pass_on(self._watch_or_stop, DesiredState())
 
     def give_way(self) -> None:
-        """The robot follows another application, which no stop of this one reaches."""
+        """Yield to another application, which a stop of this one does not affect."""
         self._stop.withdraw()
 
     def is_answered(self, status: RobotStatus) -> bool:

@@ -1,4 +1,4 @@
-"""The thread that owns both links: it keeps the robot answered, runs tests and calibration, and fills the mailbox."""
+"""Thread that owns both links: it answers the robot, runs tests and calibration, and fills the mailbox."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -44,20 +44,21 @@ from .links import Links
 from .measurement_run import Answers, MeasurementRun
 from .stop_order import StopOrder
 
-# Wall time between two attempts to open the robot's link again.
+# Wall time between two attempts to reopen the robot's link.
 RETRY_S = 1.0
-# Silence of the robot that the view is to show.
+# Silence of the robot after which the view shows it.
 SILENCE_SHOWN_S = 1.0
 
 
 class Worker:
-    """Everything that waits for robot or Car happens in its thread; requests are taken between two Statuses."""
+    """Worker whose thread contains all waiting for robot and Car; it takes requests between two Statuses."""
 
     def __init__(self, connection: Connection, opener: LinkOpener, mailbox: Mailbox,
                  new_standstill: Callable[[], Standstill] = lambda: Standstill(SILENCE_LIMIT_S),
                  attention: Attention | None = None, *, presence: PresenceParameters | None = None):
-        """new_standstill: makes what notices that the laptop slept, for each run and for the time between them.
-        attention: notices that the view hangs; None for the mailbox's own. presence: when a person is asked for."""
+        """new_standstill: creates the detector of a sleeping laptop, for each run and for the time between them.
+        attention: detects that the view hangs; None for the mailbox's own. presence: conditions of prompts to a
+        person."""
         self._new_standstill = new_standstill
         self._standstill = new_standstill()
         self._attention = attention or Attention(lambda: mailbox.taken)
@@ -65,7 +66,7 @@ class Worker:
         self._event_log = EventLog()
         self._event_log.listen(lambda entry: mailbox.put(EventLogged(entry)))
         self._requests: queue.Queue[Callable[[], None]] = queue.Queue()
-        # Short ones, which a running test does not put off.
+        # Short requests, which a running test does not delay.
         self._short_requests: queue.Queue[Callable[[], None]] = queue.Queue()
         self._closing = threading.Event()
         self._stop = StopOrder()
@@ -77,11 +78,11 @@ class Worker:
         self._links = Links(connection, opener, self._stop, self._event_log, self._released)
 
     def start(self) -> None:
-        """Open the links and go on until close(); Connected or Refused comes into the mailbox."""
+        """Open the links and run until close(); Connected or Refused is put into the mailbox."""
         self._thread.start()
 
     def close(self, timeout_s: float | None = None) -> bool:
-        """Stop the robot, end a running test, disconnect; True when that is done."""
+        """Stop the robot, end a running test, disconnect; return True when that is done."""
         self._closing.set()
         self._stop.give()
         if self._thread.is_alive():
@@ -89,18 +90,19 @@ class Worker:
         return not self._thread.is_alive()
 
     def run_test(self, test: Test, confirmed: Sequence[str] = ()) -> None:
-        """Measure what is left of a test; Ended comes into the mailbox. Who orders it is present. confirmed: operating
-        conditions."""
+        """Measure the rest of a test; Ended is put into the mailbox. The person who orders it is present. confirmed:
+        operating conditions."""
         ticket = self._stop.ticket
         self._requests.put(lambda: self._measure(test, ticket, tuple(confirmed)))
 
     def lay_aside(self) -> None:
-        """Leave the robot to other applications unless something else was ordered: no test is at hand any more."""
+        """Release the robot to other applications unless another order is active, because the current test was
+        closed."""
         self._requests.put(self._free_robot)
 
     def stop(self) -> None:
-        """Stop the robot, whatever it does: the stop has left when this returns. A running test ends, and what is
-        measured is kept; what was ordered before and not begun yet is not begun."""
+        """Stop the robot in any state: the stop has been sent when this returns. A running test ends, and its results
+        are kept; earlier orders that have not started are discarded."""
         self._give_stop()
         self.note("Stop.")
 
@@ -110,7 +112,7 @@ class Worker:
         self.note("Enter service mode.")
 
     def leave_service(self, agreement_id: int) -> None:
-        """Release service mode for the Operator; the robot has to be released on its own side, too. A stop stays in
+        """Release service mode for the Operator; the robot must also be released on its own side. A stop stays in
         force."""
         self._requests.put(lambda: self._links.idle.leave_service(agreement_id) if self._links.idle else None)
         self.note("Release service mode.")
@@ -120,38 +122,38 @@ class Worker:
         self._requests.put(lambda: self._links.idle.request_car(CarRequest.STOP) if self._links.idle else None)
 
     def release_hold(self, hold_id: int) -> None:
-        """Have the robot go on that is held under this id."""
+        """Resume the robot from the hold with this id."""
         self._released_hold = hold_id
         self._presence.confirm()
         self.note("Go on.")
 
     def skip_line(self, number: int) -> None:
-        """Have a running test leave this line, if it is the one that is measured, and go on with the next one."""
+        """Let a running test skip this line, if it is the current one, and continue with the next one."""
         self._skipping.skip(number)
         self._presence.confirm()
         self.note(f"Skip line {number}.")
 
     def answer(self, prompt: Prompt) -> None:
-        """A person has done what this prompt asks for."""
+        """Confirm that a person has done what this prompt requests."""
         self._person.answer(prompt.number)
         self._presence.confirm()
         self.note(prompt.done)
 
     def confirm_presence(self) -> None:
-        """The Operator is present."""
+        """Confirm that the Operator is present."""
         self._presence.confirm()
         self.note("Presence confirmed.")
 
     def save(self, test: Test) -> None:
-        """Write a test's progress; Saved comes into the mailbox."""
+        """Write a test's progress; Saved is put into the mailbox."""
         self._short_requests.put(lambda: self._save(test))
 
     def calibrate(self, request: CalibrationRequest) -> None:
-        """Have the robot try something."""
+        """Request a calibration action."""
         self._order(lambda idle: idle.calibrate(request))
 
     def request_car(self, request: CarRequest) -> None:
-        """Have the robot check or map the Car, or stop doing so."""
+        """Request a check or mapping of the Car, or its end."""
         if request is CarRequest.STOP:
             self.stop()
         else:
@@ -159,23 +161,23 @@ class Worker:
             self.note("Map the Car." if request is CarRequest.MAP else "Check where the Car stands.")
 
     def set_area(self, corners: tuple[Point, ...], origin_id: int) -> None:
-        """Have the robot keep inside this test area, without corners in none. A stop stays in force."""
+        """Request that the robot stays in this test area, without corners in none. A stop stays in force."""
         self._requests.put(lambda: self._links.idle.set_area(corners, origin_id) if self._links.idle else None)
         self.note("Set the test area." if corners else "Remove the test area.")
 
     def note(self, text: str, kind: EventKind = EventKind.OPERATOR) -> None:
-        """Add to the event list what the Operator does, or a fault of the application."""
+        """Add an action of the Operator, or a fault of the application, to the event list."""
         time, severity = now(), INFO if kind is EventKind.OPERATOR else ERROR
         self._short_requests.put(lambda: self._event_log.add(kind, text, severity, time))
 
     def bus_view(self) -> BusView:
-        """What comes over the Car's bus now, and what its locks did."""
+        """Return the current traffic of the Car's bus, and the history of its locks."""
         car = self._links.car
         bus = part(car, BusMonitor)
         return BusView(bus.messages, bus.traffic, car.problem, *self._links.time_line.recent())
 
     def use_can(self, choice: CanChoice | None) -> None:
-        """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""
+        """Change the CAN adapter; CarLinkOpened or Refused is put into the mailbox."""
         self._requests.put(lambda: self._change_car(choice))
 
     def _order(self, carry_out: Callable[[IdleLoop], None]) -> None:
@@ -196,7 +198,7 @@ class Worker:
     def _try_turn(self) -> None:
         try:
             self._turn()
-        # Whatever it was: with a new session the links may work again, and without this thread nothing would.
+        # After any defect a new session may restore the links; without this thread nothing would work.
         except Exception:
             logging.exception("The link to the robot is opened anew after a defect.")
             self._links.close_robot()
@@ -219,7 +221,7 @@ class Worker:
             self._closing.wait(RETRY_S)
             return
         snapshot = idle.step()
-        # Lost for good: a test that was paused before another one took the robot does not take it back.
+        # Final: a test that was paused before another one took the robot does not claim it again.
         self._links.has_paused = self._links.has_paused and idle.claims
         self._look_for_standstill()
         if snapshot is not None:
@@ -248,13 +250,13 @@ class Worker:
         self._mailbox.put(refused or CarLinkOpened())
 
     def _look_for_standstill(self) -> None:
-        """The robot does not go on with what it was ordered to before the laptop slept."""
+        """Prevent that the robot resumes orders from before the laptop slept."""
         said = self._standstill.look()
         if said:
             self._stop_unattended(said)
 
     def _look_for_attention(self) -> None:
-        """Nor with what it was ordered to by a window that hangs."""
+        """Prevent that the robot continues orders of a window that hangs."""
         said = self._attention.look()
         if said and self._links.idle is not None and self._links.idle.has_order:
             self._stop_unattended(said)
@@ -288,11 +290,11 @@ class Worker:
         self._presence.end()
         self._links.has_paused = ended.outcome is not Outcome.COMPLETE
         self._mailbox.put(replace(ended, text=ended.text or "".join(unattended)))
-        # What happened during the run was told there.
+        # The run itself reported events during it.
         self._standstill = self._new_standstill()
 
     def _is_stopped(self, unattended: list[str]) -> bool:
-        """True when the Operator has stopped the robot, or cannot; the reason goes to the list then."""
+        """Return True if the Operator has stopped the robot, or is unable to; the reason is added to the list."""
         said = self._attention.look()
         if said and not self._stop.is_in_force:
             unattended.append(said)

@@ -1,2 +1,2 @@
-"""What the robot sees around the Car: for the picture, and for a look at the plan before a test."""
+"""The robot's view of the Car's surroundings: for the picture, and for the check of the plan before a test."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""A test area while it is drawn: corners, a cursor for the keyboard, and steps back."""
+"""Test area during drawing: corners, a cursor for the keyboard, and undo."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ class AreaSketch:
 
     Attributes:
         corners: in their order.
-        cursor: where the keyboard adds and picks.
-        picked: index of the corner that is being moved, None while none is.
+        cursor: position at which the keyboard adds and picks.
+        picked: index of the corner being moved, None without one.
     """
 
     def __init__(self) -> None:
@@ -28,7 +28,7 @@ class AreaSketch:
 
     @property
     def problem(self) -> str:
-        """Why a robot would refuse these corners; empty when it would not."""
+        """Reason why a robot would reject these corners; empty if it would not."""
         try:
             check_corners(self.corners)
         except InvalidParameter as error:
@@ -37,18 +37,18 @@ class AreaSketch:
 
     @property
     def can_undo(self) -> bool:
-        """There is a step to take back."""
+        """True if there is a step to undo."""
         return bool(self._before)
 
     def add(self, point: Point) -> bool:
-        """Add a corner behind the newest one; False when there are as many as a robot accepts."""
+        """Add a corner after the newest one; return False at the robot's maximum."""
         if len(self.corners) >= MAX_CORNERS:
             return False
         self._change((*self.corners, _within(point)))
         return True
 
     def replace(self, corners: tuple[Point, ...]) -> None:
-        """Other corners in their place."""
+        """Replace all corners."""
         self.picked = None
         self._change(tuple(map(_within, corners)))
 
@@ -58,30 +58,30 @@ class AreaSketch:
         self._change(self.corners[:index] + self.corners[index + 1:])
 
     def pick(self, index: int) -> None:
-        """Begin to move a corner; one undo takes the whole move back."""
+        """Start to move a corner; one undo reverts the whole move."""
         self._change(self.corners)
         self.picked = index
 
     def move(self, point: Point) -> None:
-        """Move the corner that is picked."""
+        """Move the picked corner."""
         if self.picked is not None:
             self.corners = tuple(_within(point) if index == self.picked else corner
                                  for index, corner in enumerate(self.corners))
 
     def drop(self) -> None:
-        """Leave the corner that is picked where it is."""
+        """End the move of the picked corner at its position."""
         self.picked = None
         if self._before and self._before[-1] == self.corners:
             self._before.pop()
 
     def undo(self) -> None:
-        """Take the newest step back."""
+        """Revert the newest step."""
         self.picked = None
         if self._before:
             self.corners = self._before.pop()
 
     def nearest(self, point: Point, reach_m: float) -> int | None:
-        """Index of the nearest corner within reach, None without one."""
+        """Return the index of the nearest corner within reach, None without one."""
         found = min(range(len(self.corners)), key=lambda index: math.dist(point, self.corners[index]), default=None)
         return found if found is not None and math.dist(point, self.corners[found]) <= reach_m else None
 
@@ -91,6 +91,6 @@ class AreaSketch:
 
 
 def _within(point: Point) -> Point:
-    """To the centimetre, and no farther than a robot accepts."""
+    """Round to centimetres, and limit to the range that a robot accepts."""
     x, y = (round(min(max(value, -MAX_CORNER_M), MAX_CORNER_M), 2) for value in point)
     return x, y

@@ -1,4 +1,4 @@
-"""Where something stands around the Car, as the robot has seen it again and again; what has gone is forgotten."""
+"""Map of objects around the Car that the robot has seen repeatedly; objects that have gone are removed."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from .view import View
 CELL_M = 0.2
 _CELLS = 400
 _HALF_M = CELL_M * _CELLS / 2.0
-# Robot time between two looks: somebody who walks by is in no cell for long.
+# Robot time between two updates: a person who walks by occupies no cell for long.
 PERIOD_S = 0.5
-# A return counts more than a ray that passes: rays graze what they see aslant. With these a cell counts after three
-# looks, and after seven that pass through it no more.
+# A return counts more than a passing ray, because rays graze surfaces at flat angles. A cell becomes occupied after
+# three returns, and free after seven passing rays.
 _RETURN, _PASS, _OCCUPIED, _MOST = 2, 1, 6, 12
-# A ray says nothing of its last piece: range noise, and its cell's own size.
+# The last piece of a ray is ignored: range noise, and its cell's own size.
 _UNSURE_M = 0.4
 
 
 class ObstacleMap:
-    """A square of 80 m around the Car's centre. Begins anew with another frame of the Car.
+    """Square of 80 m around the Car's centre. It restarts with another frame of the Car.
 
     Attributes:
-        version: grows with each change of places.
-        places: middles of the cells in which something stands, (n, 2), Car coordinate system, m.
-        seen: True at the cells of which something is known, occupied or free, as a square of rows along x.
+        version: increases with each change of places.
+        places: centres of the occupied cells, (n, 2), Car coordinate system, m.
+        seen: True at the known cells, occupied or free, as a square of rows along x.
     """
 
     def __init__(self) -> None:
@@ -42,11 +42,11 @@ class ObstacleMap:
 
     @property
     def mark(self) -> tuple[int, int]:
-        """Another one when there is something new in it."""
+        """Return a mark that changes with the content."""
         return self.version, int(np.count_nonzero(self.seen))
 
     def has_seen(self, x_m: Any, y_m: Any) -> Any:
-        """True at the places of which, or of a cell beside which, something is known; rays leave gaps."""
+        """Return True at places of known cells, or with a known neighbouring cell; rays leave gaps."""
         rows, columns, inside = _indices(x_m, y_m)
         known = np.zeros(len(rows), dtype=bool)
         for row in (-1, 0, 1):
@@ -56,7 +56,7 @@ class ObstacleMap:
         return known & inside
 
     def learn(self, status: RobotStatus, view: View) -> None:
-        """What is seen with a Status."""
+        """Add the view of a Status."""
         frame = status.robot_session_id, status.car_frame.revision
         if frame != self._frame or status.car is None or status.stamp_s < self._looked_s:
             self._frame, self._looked_s = frame, -math.inf
@@ -81,7 +81,7 @@ class ObstacleMap:
 
 
 def _passed(view: View) -> tuple[Any, Any]:
-    """x and y of places along all rays, a cell apart, without their last piece."""
+    """Return x and y of places along all rays, a cell apart, without their last piece."""
     x_m, y_m = view.points.T - np.array(view.viewer)[:, None]
     lengths_m = np.hypot(x_m, y_m)
     if not len(lengths_m):
@@ -93,7 +93,7 @@ def _passed(view: View) -> tuple[Any, Any]:
 
 
 def _cells(x_m: Any, y_m: Any) -> Any:
-    """True at the cells of places, in the order of the counts; what lies beyond the square is left out."""
+    """Return True at the cells of places, in the order of the counts; places outside the square are omitted."""
     rows, columns, inside = _indices(x_m, y_m)
     cells = np.zeros(_CELLS * _CELLS, dtype=bool)
     cells[rows[inside] * _CELLS + columns[inside]] = True
@@ -101,8 +101,8 @@ def _cells(x_m: Any, y_m: Any) -> Any:
 
 
 def _indices(x_m: Any, y_m: Any) -> tuple[Any, Any, Any]:
-    """Rows and columns of places, and True at those within the square."""
+    """Return rows and columns of places, and True at those within the square."""
     rows, columns = (x_m + _HALF_M) / CELL_M, (y_m + _HALF_M) / CELL_M
     inside = (rows >= 0.0) & (rows < _CELLS) & (columns >= 0.0) & (columns < _CELLS)
-    # What is not negative is rounded down by the conversion.
+    # The conversion rounds non-negative values down.
     return rows.astype(np.int64), columns.astype(np.int64), inside

@@ -1,4 +1,4 @@
-"""What the robot sees, in the Car coordinate system."""
+"""The robot's view, in the Car coordinate system."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ Array = Any
 
 @dataclass(frozen=True)
 class View:
-    """points: returns of the LiDARs, (n, 2). path: to the waypoint. viewer: the robot. obstacle: place of what hinders
-    it and its distance from the footprint, None when nothing does. Places in the Car coordinate system, m."""
+    """View. points: returns of the LiDARs, (n, 2). path: to the waypoint. viewer: the robot. obstacle: position of the
+    obstacle that stops it and its distance from the footprint, None without one. Positions in the Car coordinate
+    system, m."""
 
     points: Array
     path: tuple[Point, ...]
@@ -30,7 +31,7 @@ class View:
 
 
 def view_of(status: RobotStatus) -> View | None:
-    """None in a Status that does not carry it, and where nobody knows where the robot is."""
+    """Return the view of a Status; None without one, or if the robot's position is unknown."""
     seen = status.surroundings
     if seen is None or not status.pose_valid:
         return None
@@ -47,7 +48,7 @@ def view_of(status: RobotStatus) -> View | None:
 
 
 def _place(points: Array, bearing_rad: float, distance_m: float) -> Point:
-    """Of the obstacle in base_link: the nearest return on that bearing; without one its distance from the middle."""
+    """Return the obstacle in base_link: the nearest return on that bearing; without one a point at its distance."""
     off = np.abs(np.remainder(np.arctan2(points[:, 1], points[:, 0]) - bearing_rad + np.pi, 2.0 * np.pi) - np.pi)
     along = np.hypot(points[:, 0], points[:, 1])[off < _SAME_BEARING_RAD]
     range_m = float(along.min()) if len(along) else distance_m

@@ -1,4 +1,4 @@
-"""Which lines are free before the robot drives them: a warning, for its own planner decides on the way."""
+"""Lines that are free before the robot drives them: a warning only, because the robot's planner decides en route."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from mtr_operator.domain.robot_status import CarDimensions
 
 from .obstacle_map import CELL_M, ObstacleMap
 
-# How far the robot reaches beyond its key, away from the Car, and to both sides of the line, with the planner's margin
-# and half a cell of the map; docs of mtr_motion_planner: 0.27 m ahead, 0.254 m behind, 0.22 m aside, key 0.25 m ahead.
+# Extent of the robot beyond its key, away from the Car, and to both sides of the line, with the planner's margin and
+# half a cell of the map. Docs of mtr_motion_planner: 0.27 m ahead, 0.254 m behind, 0.22 m to the side, key 0.25 m
+# ahead.
 _BEHIND_KEY_M, _ASIDE_M = 0.6, 0.4
-# Nearer to its outline the Car itself is seen.
+# Closer to its outline, returns are from the Car itself.
 _CAR_M = 0.4
 _SHORT_RUN = 2
 
@@ -27,9 +28,9 @@ class Ways:
     """Lines by their labels, in their order.
 
     Attributes:
-        hindered: on their way, or at their end, something stands. gap_m: from the Car to the nearest of it, NaN
-            without.
-        unseen: the others that lead where the robot has not looked.
+        hindered: lines with an obstacle on their path or at their end. gap_m: from the Car to the nearest obstacle, NaN
+            without one.
+        unseen: other lines through places that the robot has not seen.
     """
 
     hindered: tuple[str, ...] = ()
@@ -38,7 +39,7 @@ class Ways:
 
 
 def ways_of(stretches: Sequence[Stretch], car: CarDimensions, obstacles: ObstacleMap) -> Ways:
-    """Of the lines of a plan, by what the robot has seen around this Car."""
+    """Evaluate the lines of a plan with the robot's observations around this Car."""
     places = beside_car(obstacles.places, car)
     found = [(stretch.label, place) for stretch in stretches for place in _on_way(stretch, places)]
     hindered = tuple(dict.fromkeys(label for label, _ in found))
@@ -49,13 +50,14 @@ def ways_of(stretches: Sequence[Stretch], car: CarDimensions, obstacles: Obstacl
 
 
 def beside_car(places: Any, car: CarDimensions) -> Any:
-    """Those of the places, (n, 2), m, where something else than the Car is seen."""
+    """Return the places, (n, 2), m, of objects other than the Car."""
     half = np.array([car.length / 2.0, car.width / 2.0])
     return places[np.hypot(*np.maximum(np.abs(places) - half, 0.0).T) > _CAR_M]
 
 
 def spans(labels: Sequence[str]) -> str:
-    """Such as "1, 4\N{EN DASH}7, 12": numbers in their order; of three and more that follow each other the ends."""
+    """Return a text such as "1, 4\N{EN DASH}7, 12": numbers in their order; only the ends of three or more consecutive
+    ones."""
     runs: list[list[int]] = []
     for number in map(int, labels):
         if runs and number == runs[-1][-1] + 1:
@@ -73,7 +75,7 @@ def _is_seen(stretch: Stretch, obstacles: ObstacleMap) -> bool:
 
 
 def _on_way(stretch: Stretch, places: Any) -> Any:
-    """Places that the robot would touch while its key is carried along."""
+    """Return the places that the robot would touch while its key is carried along."""
     (near_x, near_y), (far_x, far_y) = stretch.start, stretch.end
     length_m = math.hypot(far_x - near_x, far_y - near_y)
     if length_m == 0.0 or not len(places):
