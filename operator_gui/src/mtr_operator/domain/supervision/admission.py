@@ -1,4 +1,4 @@
-"""Admits a test on the robot at hand: a simulated one always, a real one under supervision."""
+"""Admission of a test on the current robot: a simulated one always, a real one under supervision."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from ..identity.identity import Identity
 
 
 def admit(loop: ControlLoop, identity: Identity | None) -> dict[str, str]:
-    """Wait until the person has confirmed to be present; for the record of the test. RobotFailed or OperatorAbsent says
-    why no test begins; nothing has moved then."""
+    """Wait until the person has confirmed presence; return entries for the record of the test. RobotFailed or
+    OperatorAbsent states why no test starts; the robot has not moved then."""
     if is_simulated_robot(loop.status):
         return {}
     supervision = loop.supervision

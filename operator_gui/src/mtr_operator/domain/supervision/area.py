@@ -1,4 +1,4 @@
-"""The test area before the robot moves: the robot has it, or no test begins."""
+"""Test area before the robot moves: the robot must have it, or no test starts."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ..robot_status import AreaState, RobotStatus
 
 # A robot confirms an area with its next Status; a busy laptop reads older Statuses first.
 CONFIRMED_WITHIN_S = 5.0
-# A robot that has just started does not know its start frame until it has stood still for a moment.
+# A robot that has just started determines its start frame after a short standstill.
 ORIGIN_WITHIN_S = 30.0
 TOO_OLD = "The robot's software is too old to keep a test area; update it, or begin without one."
 
 
 def set_area(loop: ControlLoop, corners: Sequence[Point]) -> None:
-    """Order this area, drawn in the frame in which the robot localizes itself now; RobotFailed when it cannot."""
+    """Order this area, drawn in the robot's current localization frame; RobotFailed if it is rejected."""
     until_s = loop.waited_s + ORIGIN_WITHIN_S
     while _state(loop.status).origin_id == 0:
         if loop.waited_s >= until_s:
@@ -31,7 +31,7 @@ def set_area(loop: ControlLoop, corners: Sequence[Point]) -> None:
 
 
 def await_area(loop: ControlLoop) -> None:
-    """Wait until the robot enforces the area that was ordered; RobotFailed without one that it needs."""
+    """Wait until the robot enforces the ordered area; RobotFailed if it requires one and has none."""
     until_s = loop.waited_s + CONFIRMED_WITHIN_S
     order = loop.desired.area
     while order is not None and _state(loop.status).area_id != order.id:

@@ -8,15 +8,15 @@ from typing import Iterator
 
 from .car_signals import DOOR, CarSignal, CarSignals, SignalState, first_active
 
-# Robot time in which a person closes a door that was pulled open with the handle.
+# Robot time in which a person closes a door that was opened with the handle.
 DOOR_CLOSING_S = 5.0
 
 
 class CarGuard:
-    """Watches the signals from begin() on; inactive before it.
+    """Watch of the signals from begin() on; inactive before it.
 
     Attributes:
-        reason: sentence of the signal that stopped the test, empty while none has; it stays until the test ends.
+        reason: sentence of the signal that stopped the test, empty without one; it remains until the test ends.
     """
 
     def __init__(self) -> None:
@@ -27,8 +27,8 @@ class CarGuard:
         self._closed_by_s = -math.inf
 
     def begin(self, signals: CarSignals) -> str:
-        """Watch from now on; a sentence when a signal already forbids motion. Doors that are open now do not count
-        until they were closed: the checklist shows them."""
+        """Start to watch; return a sentence if a signal already forbids motion. Doors that are open now are ignored
+        until they are closed, because the checklist shows them."""
         self._is_active = True
         self._ignored = {each.name for each in _open_doors(signals)}
         active = first_active(signals)
@@ -36,7 +36,7 @@ class CarGuard:
 
     @contextlib.contextmanager
     def handle_pulled(self) -> Iterator[None]:
-        """Within the context a person pulls a handle, and a door may open with it."""
+        """Context in which a person pulls a handle, and a door may open with it."""
         self._is_handle_pulled = True
         try:
             yield
@@ -45,7 +45,7 @@ class CarGuard:
             self._closed_by_s = math.nan
 
     def learn(self, signals: CarSignals, now_s: float) -> bool:
-        """True when one of the signals at this robot time stops the test for the first time."""
+        """Return True when one of the signals at this robot time stops the test for the first time."""
         if not self._is_active or self.reason:
             return False
         active = first_active(signals) or self._opened(signals, now_s)
@@ -53,7 +53,7 @@ class CarGuard:
         return active is not None
 
     def _opened(self, signals: CarSignals, now_s: float) -> CarSignal | None:
-        """The first door that counts as opened."""
+        """Return the first door that counts as opened."""
         if math.isnan(self._closed_by_s):
             self._closed_by_s = now_s + DOOR_CLOSING_S
         # Robot time may be set back.

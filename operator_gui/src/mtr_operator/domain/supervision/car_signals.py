@@ -10,7 +10,8 @@ GEAR, IGNITION, SPEED, DOOR = "gear", "ignition", "speed", "door"
 
 
 class SignalState(enum.Enum):
-    """CLEAR: the robot may move. ACTIVE: it may not. UNKNOWN: nothing was received, or a value without information."""
+    """State of a signal. CLEAR: the robot may move. ACTIVE: it must not. UNKNOWN: nothing was received, or a value
+    without information."""
 
     CLEAR = "clear"
     ACTIVE = "active"
@@ -31,7 +32,7 @@ class CarSignal:
 
     @property
     def sentence(self) -> str:
-        """What an active signal reports."""
+        """Sentence of an active signal."""
         if self.kind == IGNITION:
             return f"The Car's ignition is on (signal {self.source})."
         if self.kind == GEAR:
@@ -45,11 +46,11 @@ CarSignals = Sequence[CarSignal]
 
 
 def first_active(signals: CarSignals, kinds: Sequence[str] = (IGNITION, GEAR, SPEED)) -> CarSignal | None:
-    """The first active signal of these kinds; None when there is none."""
+    """Return the first active signal of these kinds; None without one."""
     return next((each for each in signals if each.kind in kinds and each.state is SignalState.ACTIVE), None)
 
 
 def unknown_unless_active(signals: CarSignals) -> tuple[CarSignal, ...]:
-    """The signals while their bus cannot be trusted: what was active still is, nothing else is known."""
+    """Return the signals for an unreliable bus: active ones stay active, all others are unknown."""
     return tuple(each if each.state is SignalState.ACTIVE else replace(each, state=SignalState.UNKNOWN)
                  for each in signals)

@@ -1,10 +1,10 @@
-"""Operating conditions that a person confirms before a test: no sensor of the robot shows them."""
+"""Operating conditions that a person confirms before a test, because no sensor of the robot shows them."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from typing import Sequence
 
-# As in the table odd of docs/safety/hazards.yaml, and what each of them demands, for who confirms it.
+# Names as in the table odd of docs/safety/hazards.yaml, with the requirement shown to the confirming person.
 CONDITIONS = {
     "area": "closed or marked area, 2 m free around the paths; no edge, stairs, dock or kerb inside",
     "people": "trained adults only; no person lies, kneels or works at the Car",
@@ -17,5 +17,5 @@ CONDITIONS = {
 
 
 def unconfirmed(confirmed: Sequence[str]) -> list[str]:
-    """Conditions that were not confirmed, in their order."""
+    """Return the conditions that were not confirmed, in their order."""
     return [name for name in CONDITIONS if name not in confirmed]

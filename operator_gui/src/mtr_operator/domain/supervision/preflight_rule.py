@@ -1,4 +1,4 @@
-"""Which preflight a test requires: none that is bad, and on a real robot one in motion that is not old."""
+"""Preflight required for a test: no bad one, and on a real robot a recent one in motion."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ COMMAND = "rosrun mtr_commissioning preflight --drive"
 
 
 def preflight_hindrance(report: PreflightReport | None, status: RobotStatus) -> str:
-    """Why no test begins with the newest preflight, a sentence with what to do; empty when one may.
+    """Return a sentence with the remedy if the newest preflight prevents a test; empty if it permits one.
 
-    A report ends with the run of the robot in which it was made, so it is always of the release and description in use.
+    A report expires with the run of the robot in which it was made, so it always applies to the current release and
+    description.
     """
     if report is not None and report.hinders(status.steady_s):
         return (f"No test begins, because the robot's preflight found: {report.first_bad} Mend it, then run "
@@ -23,7 +24,7 @@ def preflight_hindrance(report: PreflightReport | None, status: RobotStatus) -> 
 
 
 def _missing(report: PreflightReport | None, steady_s: float) -> str:
-    """Of a real robot."""
+    """Return the sentence for a real robot."""
     if report is None or math.isnan(steady_s):
         return ("No test begins on a real robot that does not report its preflight; update its software, then run "
                 f"`{COMMAND}` on it.")

@@ -1,4 +1,4 @@
-"""Asks again and again whether a person is present, and reports when nobody answers."""
+"""Periodic prompt for the presence of a person; reports a missing answer."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ _S_PER_MIN = 60.0
 
 @dataclass(frozen=True)
 class PresenceParameters:
-    """period_s: wall time from a confirmation to the next question. answer_s: wall time in which it is answered."""
+    """Times of the prompt. period_s: wall time from a confirmation to the next prompt. answer_s: wall time limit of the
+    answer."""
 
     period_s: float = 900.0
     answer_s: float = 60.0
@@ -28,12 +29,12 @@ class PresenceParameters:
 
 
 class Presence:
-    """Belongs to the thread of a test; confirm() may be called in any.
+    """Presence of a person; belongs to the thread of a test, but confirm() may be called in any.
 
-    show: shows the question, or with False takes it away. clock: wall time in s that continues while the laptop sleeps.
+    show: shows the prompt, or removes it with False. clock: wall time in s that continues while the laptop sleeps.
 
     Attributes:
-        is_asked: a question waits for its answer.
+        is_asked: a prompt waits for its answer.
     """
 
     def __init__(self, show: Callable[[bool], None], parameters: PresenceParameters | None = None,
@@ -46,22 +47,22 @@ class Presence:
         self._since_s = clock()
 
     def ask(self) -> None:
-        """Ask now."""
+        """Prompt now."""
         self._since_s, self._counted = self._clock(), self._confirmations
         self._set(True)
 
     def confirm(self) -> None:
-        """A person is present: answers a question, and postpones the next one."""
+        """Confirm that a person is present: it answers a prompt, and postpones the next one."""
         self._confirmations += 1
 
     def look(self) -> str:
-        """A sentence once a question was not answered in time; empty before."""
+        """Return a sentence if a prompt was not answered in time; empty before."""
         now_s = self._clock()
         if self._confirmations != self._counted:
             self._counted, self._since_s = self._confirmations, now_s
             self._set(False)
         passed_s = now_s - self._since_s
-        # Written so that a clock without a number counts as too late.
+        # The condition also counts NaN of the clock as too late.
         if self.is_asked and not passed_s < self.parameters.answer_s:
             return (f"Nobody confirmed within {self.parameters.answer_s:g} s to be present: the robot was stopped. The "
                     "test is kept; resume it in sight of the robot.")
@@ -71,12 +72,12 @@ class Presence:
         return ""
 
     def end(self) -> None:
-        """The test is over: nothing is asked."""
+        """End the prompts with the test."""
         self._set(False)
 
     @property
     def text(self) -> str:
-        """For the record of a test."""
+        """Text for the record of a test."""
         return f"person present, asked every {self.parameters.period_s / _S_PER_MIN:g} min"
 
     def _set(self, is_asked: bool) -> None:

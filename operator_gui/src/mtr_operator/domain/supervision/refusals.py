@@ -1,4 +1,4 @@
-"""Conditions without which no test begins on the connected robot; RobotFailed states the first missing one."""
+"""Conditions for the start of a test on the connected robot; RobotFailed states the first missing one."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

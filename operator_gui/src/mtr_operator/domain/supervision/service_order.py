@@ -1,4 +1,4 @@
-"""Service mode ordered without a window: enter it, or release it for the Operator and wait for the robot's side."""
+"""Service mode without a window: enter it, or release it for the Operator and wait for the robot's side."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from ..ports import RobotLink
 from ..requests import DesiredState
 from ..robot_status import RobotStatus, ServiceState
 
-# Wall time for which one look waits for a Status.
+# Wall time of one wait for a Status.
 LOOK_S = 0.1
-# Wall time within which the robot has to answer and to follow.
+# Wall time limit for the robot's answer and reaction.
 LIMIT_S = 10.0
-# Wall time for which the robot's side is waited for, as long as a release counts there at most.
+# Wall time limit of the wait for the robot's side, equal to the validity of a release there.
 RELEASE_LIMIT_S = 300.0
-# The first Statuses may be older than the end of another application's session.
+# The first Statuses may precede the end of another application's session.
 FOREIGN_S = 2.0
 RELEASED = "Released for the Operator. On the robot: rosrun mtr_dispatcher service_mode release"
 NOT_RELEASED = "The robot was not released on its own side in time; service mode remains active."
 
 
 class ServiceOrder:
-    """One order over a link that is connected. look: called at each Status; may raise to interrupt."""
+    """One order over a connected link. look: called at each Status; may raise to interrupt."""
 
     def __init__(self, link: RobotLink, look: Callable[[], None] = lambda: None,
                  clock: Callable[[], float] = time.monotonic):
         self._link, self._look, self._clock = link, look, clock
 
     def state(self) -> ServiceState:
-        """What the robot reports; RobotFailed for one that has no service mode."""
+        """Return the reported state; RobotFailed for a robot without service mode."""
         service = self._status().service
         if service is None:
             raise RobotFailed("The robot's software is too old for service mode; update it, or switch the robot off "
@@ -50,7 +50,7 @@ class ServiceOrder:
         raise RobotFailed("The robot did not enter service mode; switch it off before you work on it.")
 
     def leave(self, say: Callable[[str], None]) -> None:
-        """Release it for the Operator, and return when it has ended. say: shows what is waited for."""
+        """Release it for the Operator, and return when it has ended. say: shows the reason of the wait."""
         agreement_id, is_told = self.state().agreement_id, False
         begun_s = self._clock()
         while self._clock() < begun_s + RELEASE_LIMIT_S:

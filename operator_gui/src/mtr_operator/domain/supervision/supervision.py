@@ -20,10 +20,10 @@ _NO_NAME = ("No test begins on a real robot without a person in charge: name one
 
 @dataclass(frozen=True)
 class Supervision:
-    """Of one run.
+    """Supervision of one run.
 
-    presence: asks for a person, None when nobody can be asked. unattended_stop: name of the rated stop with which
-    nobody need be present, empty without one. confirmed: operating conditions that a person has confirmed.
+    presence: prompts a person, None if impossible. unattended_stop: name of the rated stop that permits a test without
+    a person, empty without one. confirmed: operating conditions that a person has confirmed.
     """
 
     presence: Presence | None = None
@@ -32,11 +32,11 @@ class Supervision:
 
     @property
     def is_unattended(self) -> bool:
-        """True when a rated stop takes the place of a person."""
+        """True if a rated stop replaces a person."""
         return bool(self.unattended_stop.strip())
 
     def missing(self, identity: Identity | None) -> str:
-        """Why no test begins on a real robot, a sentence; empty when one may."""
+        """Return a sentence why no test starts on a real robot; empty if it may."""
         if self.presence is None and not self.is_unattended:
             return _NOBODY
         if identity is None or not identity.person_in_charge:
@@ -47,7 +47,7 @@ class Supervision:
         return ""
 
     def look(self, status: RobotStatus) -> None:
-        """Raise OperatorAbsent when the person of a real robot does not answer."""
+        """Raise OperatorAbsent if the person of a real robot does not answer."""
         if self.presence is None or self.is_unattended or is_simulated_robot(status):
             return
         said = self.presence.look()
@@ -55,7 +55,7 @@ class Supervision:
             raise OperatorAbsent(said)
 
     def record(self) -> dict[str, str]:
-        """For the record of a test on a real robot."""
+        """Return the entries for the record of a test on a real robot."""
         if self.is_unattended or self.presence is None:
             return {SUPERVISION: f"unattended, stop: {self.unattended_stop.strip()}"}
         return {SUPERVISION: self.presence.text, CONDITIONS_CONFIRMED: ", ".join(self.confirmed)}
