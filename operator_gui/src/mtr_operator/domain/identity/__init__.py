@@ -1,2 +1,2 @@
-"""Who measured what, with what: the part of a test's record that no sensor tells."""
+"""Identity of a test: the part of its record that comes from people instead of sensors."""
 # SPDX-License-Identifier: Apache-2.0

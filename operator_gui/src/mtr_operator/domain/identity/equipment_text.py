@@ -17,7 +17,7 @@ _KEYS = ("name", "serial", "calibrated", "valid_until")
 
 
 def equipment_from_text(text: str) -> tuple[Equipment, ...]:
-    """Equipment in a text; InvalidIdentity says what is wrong where."""
+    """Return the equipment in a text; InvalidIdentity states fault and position."""
     lines = [[part.strip() for part in line.split(";")] for line in text.splitlines() if line.strip()]
     for number, parts in enumerate(lines, start=1):
         if len(parts) > len(_KEYS):
@@ -28,12 +28,12 @@ def equipment_from_text(text: str) -> tuple[Equipment, ...]:
 
 
 def equipment_text(equipment: Sequence[Equipment]) -> str:
-    """The text for it."""
+    """Return the text of equipment."""
     return "\n".join(one_line(each) for each in equipment)
 
 
 def one_line(equipment: Equipment) -> str:
-    """One instrument."""
+    """Return the line of one instrument."""
     days = ["" if day is None else day.isoformat() for day in (equipment.calibrated, equipment.valid_until)]
     parts = [equipment.name, equipment.serial, *days]
     while not parts[-1]:

@@ -45,7 +45,7 @@ _MAX_SHOWN = 40
 
 
 def identity_from(document: Any) -> Identity:
-    """Identity in a document; InvalidIdentity says what is wrong where."""
+    """Return the identity in a document; InvalidIdentity states fault and position."""
     check_table(document, tuple(TITLES), "")
     values: dict[str, Any] = {name: _notes(document[name]) if name == "notes" else text_of(document[name], name)
                               for name in TEXTS if document.get(name) is not None}
@@ -62,7 +62,7 @@ def identity_from(document: Any) -> Identity:
 
 
 def check_table(table: Any, known: tuple[str, ...], place: str) -> None:
-    """Raise InvalidIdentity unless it is a table with known keys only."""
+    """Raise InvalidIdentity unless it is a table with only known keys."""
     if not isinstance(table, Mapping):
         raise InvalidIdentity(f"{place}it has to consist of lines of the form 'name: value'.")
     unknown = next((str(key)[:_MAX_SHOWN] for key in table if key not in known), None)
@@ -73,7 +73,7 @@ def check_table(table: Any, known: tuple[str, ...], place: str) -> None:
 
 
 def text_of(value: Any, place: str) -> str:
-    """A text of one line; InvalidIdentity names the place when it is none."""
+    """Return a text of one line; InvalidIdentity names the position of an invalid one."""
     if isinstance(value, (int, float)):
         raise InvalidIdentity(f"{place} is a number; write it in quotes, so that its zeros are kept.")
     if not isinstance(value, str) or len(value) > MAX_TEXT or not value.isprintable():
@@ -111,7 +111,7 @@ def _equipment(number: int, entry: Any) -> Equipment:
 
 
 def _day(value: Any, place: str) -> datetime.date | None:
-    """YAML reads a date by itself, JSON has it as a text."""
+    """Return a date: YAML parses it, JSON contains it as a text."""
     if value is None or (isinstance(value, datetime.date) and not isinstance(value, datetime.datetime)):
         return value
     try:

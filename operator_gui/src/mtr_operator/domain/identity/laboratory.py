@@ -1,7 +1,7 @@
-"""What a laboratory wants to know of each test, and what all of its tests have in common.
+"""A laboratory's requirements on the identity of each test, and its defaults.
 
     required: [car_vin, key_serial, operator, equipment]    # keys of an identity; default: none
-    defaults:                                               # an identity; what nobody says otherwise
+    defaults:                                               # an identity, for fields that are not entered
       place: Hall 2
       equipment:
         - {name: multimeter, serial: "77", calibrated: 2026-03-01, valid_until: 2027-03-01}
@@ -20,9 +20,10 @@ from .identity_document import check_table, identity_from, text_of
 
 @dataclass(frozen=True)
 class Laboratory:
-    """required: keys of Identity without which no test starts. defaults: what holds unless somebody says otherwise.
+    """Requirements of a laboratory. required: keys of Identity without which no test starts. defaults: values that
+    apply unless others are entered.
 
-    unattended_stop: names the rated stop of a real robot that may measure without a person; empty when none may.
+    unattended_stop: rated stop of a real robot that may measure without a person; empty if none may.
     """
 
     required: tuple[str, ...] = ()
@@ -30,9 +31,9 @@ class Laboratory:
     unattended_stop: str = ""
 
     def missing(self, identity: Identity, photo_count: int | None = None) -> list[str]:
-        """Keys that are required and empty. photo_count: of photos that will be kept; None counts the identity's.
+        """Return the required but empty keys. photo_count: of photos to be stored; None counts the identity's.
 
-        Required equipment needs its day of calibration.
+        Required equipment needs its date of calibration.
         """
         missing = [name for name in self.required if getattr(identity, name) == getattr(NOBODY, name)]
         if photo_count and "photos" in missing:
@@ -42,21 +43,22 @@ class Laboratory:
         return missing
 
     def check(self, identity: Identity, photo_count: int) -> None:
-        """Raise InvalidIdentity when something required is missing."""
+        """Raise InvalidIdentity if a required value is missing."""
         missing = self.missing(identity, photo_count)
         if missing:
             raise InvalidIdentity(missing_sentence(missing))
 
 
 def missing_sentence(missing: Sequence[str]) -> str:
-    """Why a test does not start."""
+    """Return why a test does not start."""
     names = ", ".join(f"{TITLES[name]} ({name})" for name in missing)
     day = " with the day of its calibration" if "equipment" in missing else ""
     return f"The test does not start: the laboratory requires {names}{day}."
 
 
 def laboratory_from(document: Any) -> Laboratory:
-    """A laboratory's wishes in a document, None for an empty one; InvalidIdentity says what is wrong where."""
+    """Return a laboratory's requirements in a document, None for an empty one; InvalidIdentity states fault and
+    position."""
     if document is None:
         return Laboratory()
     check_table(document, ("required", "defaults", "unattended_stop"), "")
