@@ -1,2 +1,2 @@
-"""Charge of the robot's battery: its levels, and what a test does at the critical one."""
+"""Charge of the robot's battery: its levels, and the retreat at the critical one."""
 # SPDX-License-Identifier: Apache-2.0

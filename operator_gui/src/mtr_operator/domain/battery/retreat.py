@@ -1,4 +1,4 @@
-"""What a test does at a critical charge: it lowers the key, returns to its start place and ends there."""
+"""Retreat of a test at a critical charge: it lowers the key, returns to its start position and ends there."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from ..geometry.pose import Pose
 
 
 class Retreat:
-    """Start place of a run, and the way back to it.
+    """Start position of a run, and the return to it.
 
-    The place is relative to the Car, like every pose: it stays valid when the Car is mapped again.
+    The position is relative to the Car, like every pose: it stays valid when the Car is mapped again.
     """
 
     def __init__(self, robot: Robot):
@@ -22,15 +22,15 @@ class Retreat:
         self._start: Pose | None = None
 
     def begin(self) -> None:
-        """Remember where the robot is now; ignored while its position is unknown."""
+        """Remember the current position; ignored while it is unknown."""
         status = self._robot.status
         if status.pose_valid and all(map(math.isfinite, (status.x, status.y, status.heading))):
             self._start = Pose(status.x, status.y, status.heading)
 
     def run(self) -> None:
-        """Lower the key at standstill, then return; a robot that cannot do one of both stays where it is.
+        """Lower the key at standstill, then return; a robot that cannot do one of both stays at its position.
 
-        Raises what ends any other action: a lost link, or the Operator's stop.
+        Raises the errors that end other actions too: a lost link, or the Operator's stop.
         """
         robot = self._robot
         try:

@@ -1,4 +1,4 @@
-"""Notices once that the charge stays critical."""
+"""Detection of a lasting critical charge, reported once."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from ..errors import BatteryCritical
 from ..robot_status import RobotStatus
 from .levels import CRITICAL_BATTERY_PERCENT, is_critical
 
-# A load step or a corrupt message is shorter.
+# Load steps and corrupt messages are shorter.
 CRITICAL_FOR_S = 10.0
-# A battery under load recovers by less when the robot stops.
+# The recovery of a battery when the robot stops is smaller.
 RECHARGED_PERCENT = 5
 
 
@@ -25,9 +25,9 @@ class BatteryWatch:
             raise BatteryCritical("The robot's battery is critical; charge the robot, then continue.")
 
     def is_due(self, percent: int | None, now_s: float) -> bool:
-        """True at the first call at which the charge has been critical for CRITICAL_FOR_S.
+        """Return True at the first call at which the charge has been critical for CRITICAL_FOR_S.
 
-        An unknown charge ends nothing: a critical battery that falls silent is still critical.
+        An unknown charge does not reset it: a critical battery without reports is still critical.
         """
         if percent is not None and not is_critical(percent):
             self._since_s = None
