@@ -1,2 +1,2 @@
-"""What happens to robot, Car and test as one list of sentences for the Operator."""
+"""Events of robot, Car and test as one list of sentences for the Operator."""
 # SPDX-License-Identifier: Apache-2.0

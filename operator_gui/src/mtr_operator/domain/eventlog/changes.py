@@ -1,4 +1,4 @@
-"""What one Status says that the one before did not: confirmations and states of the robot, as sentences."""
+"""Differences between consecutive Statuses as sentences: confirmations and states of the robot."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _INTERVENTIONS = {
     "firmware_resets": "The robot's peripherals started anew.",
     "clock_steps": "The robot's clock was set.",
 }
-# They happen in the course of things.
+# Events of normal operation.
 _ORDINARY = ("replans",)
 _STOPS = {
     EmergencyStop.ENGAGED: (ERROR, "The emergency stop is pressed."),
@@ -36,7 +36,7 @@ _CM_PER_M = 100.0
 
 
 class Said(NamedTuple):
-    """A sentence of the robot that is new."""
+    """New sentence of the robot."""
 
     kind: EventKind
     severity: int
@@ -44,7 +44,7 @@ class Said(NamedTuple):
 
 
 def changes(before: RobotStatus, now: RobotStatus) -> Iterator[Said]:
-    """All that is new in a Status of the same start of the robot, in no particular order."""
+    """Yield all changes in a Status of the same start of the robot, in no particular order."""
     for look in _LOOKS:
         yield from look(before, now)
 

@@ -1,4 +1,4 @@
-"""One entry of the event list."""
+"""Entry of the event list."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import datetime
 import enum
 from dataclasses import dataclass
 
-# Severities, as the robot counts them.
+# Severities, with the robot's numbers.
 INFO, WARNING, ERROR = 1, 2, 3
 SEVERITY_WORDS = {INFO: "info", WARNING: "warning", ERROR: "error"}
-# Sources that are no node of the robot.
+# Sources other than nodes of the robot.
 ROBOT, CAR, APPLICATION = "robot", "Car", "application"
 
 
 class EventKind(enum.Enum):
-    """What an entry is about; the word stands in files."""
+    """Subject of an entry; the value is used in files."""
 
     ROBOT_LOG = "robot log"
     FAULT = "fault"
@@ -26,11 +26,12 @@ class EventKind(enum.Enum):
 
 @dataclass(frozen=True)
 class EventEntry:
-    """Something that has happened.
+    """One event.
 
     Attributes:
-        time: by this computer's clock, when it was told. robot_time_s: when it happened by the robot's clock, None when
-            that is not known. severity: INFO, WARNING or ERROR. source: who says it, a node of the robot for its log.
+        time: of the report, by this computer's clock. robot_time_s: of the event, by the robot's clock, None if
+        unknown.
+            severity: INFO, WARNING or ERROR. source: reporter, a node of the robot for its log.
         text: one sentence.
     """
 

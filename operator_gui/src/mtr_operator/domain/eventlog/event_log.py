@@ -1,4 +1,4 @@
-"""The event list: everything that happens to robot, Car and test, in the order in which it is known."""
+"""Event log: all events of robot, Car and test, in the order of their reports."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ _CAUSES = {"passive_entry": "the key's vicinity", "key_button": "the key's butto
 
 
 class EventLog:
-    """Keeps nothing, and hands each entry to whoever listens; belongs to the thread that takes the Statuses."""
+    """Dispatcher that passes each entry to its listeners without storing it; belongs to the thread that takes the
+    Statuses."""
 
     def __init__(self, clock: Callable[[], datetime.datetime] = now):
         self._clock = clock
@@ -41,7 +42,7 @@ class EventLog:
         self._listeners.append(listener)
 
     def learn(self, status: RobotStatus, events: Sequence[CarEvent] = (), problem: str = "") -> None:
-        """A Status, the changes of the Car's locks that came with it, and what is wrong with the Car's bus."""
+        """Add a Status, its lock changes, and the fault of the Car's bus."""
         time = self._clock()
         self._end_silence(time, status)
         for entry in self._robot.learn(status, time):
@@ -52,13 +53,13 @@ class EventLog:
         self._heard = time
 
     def silent(self) -> None:
-        """Nothing comes from the robot; what is told already is not told again."""
+        """Report that the robot is silent; repeated calls are ignored."""
         if not self._is_silent:
             self._is_silent = True
             self.add(EventKind.FAULT, "The robot is not heard any more.", ERROR)
 
     def add(self, kind: EventKind, text: str, severity: int = INFO, time: datetime.datetime | None = None) -> None:
-        """Something that the application knows; time: when it was, None for now."""
+        """Add an event of the application; time: of the event, None for now."""
         self._tell(EventEntry(time or self._clock(), None, kind, severity, APPLICATION, text))
 
     def _tell(self, entry: EventEntry) -> None:

@@ -1,4 +1,4 @@
-"""Events out of Statuses: the robot's log, what it notifies of, and what changes between two of them."""
+"""Events from Statuses: the robot's log, its notifications, and changes between two Statuses."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from ..robot_status import Notification, RobotStatus
 from .changes import changes
 from .entry import ERROR, INFO, ROBOT, WARNING, EventEntry, EventKind
 
-# Said by the link itself, in one Status.
+# Code of the link itself, in a single Status.
 _RESTARTED_CODE = "robot_restarted"
-# The robot needs a moment to see that a session of this application has followed another one.
+# Time in which the robot registers that a session of this application has followed another one.
 _OTHER_FOR_S = 1.0
 _FIGURES = re.compile(r"\d+")
 
 
 class RobotEvents:
-    """Fed with every Status in order. A sentence of the log comes in several Statuses, and is told once."""
+    """Events of consecutive Statuses. A sentence of the log is in several Statuses, and is reported once."""
 
     def __init__(self) -> None:
         self._before: RobotStatus | None = None
@@ -28,7 +28,7 @@ class RobotEvents:
         self._is_other_told = False
 
     def learn(self, status: RobotStatus, time: datetime.datetime) -> Iterator[EventEntry]:
-        """What a Status says that those before did not; time: when it came."""
+        """Yield the new events of a Status; time: of its arrival."""
         before = self._before
         if before is not None and status.robot_session_id != before.robot_session_id:
             self._newest_log_id = 0
@@ -78,10 +78,10 @@ class RobotEvents:
 
 
 def is_alike(one: str, other: str) -> bool:
-    """True when two sentences differ in their figures only: a distance that changes is no news."""
+    """Return True if two sentences differ only in their figures: a changed distance is not a new event."""
     return _FIGURES.sub("", one) == _FIGURES.sub("", other)
 
 
 def over(text: str) -> str:
-    """What is said when something holds no more."""
+    """Return the sentence for the end of a condition."""
     return f"Over: {text}"
