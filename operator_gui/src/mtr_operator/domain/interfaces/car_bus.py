@@ -1,4 +1,4 @@
-"""Further interfaces of a Car link: its bus as it is monitored and recorded, and equipment at the Car.
+"""Optional interfaces of a Car link: its monitored and recorded bus, and equipment at the Car.
 
 A link derives from those that it offers; a client gets the one that it needs by `part(link, BusMonitor)`.
 """
@@ -16,36 +16,36 @@ from ..supervision.car_signals import CarSignals
 
 
 class BusMonitor:
-    """State of the Car's bus and its further signals; the defaults are those of a Car without a bus."""
+    """State of the Car's bus and its further signals; the defaults are for a Car without a bus."""
 
     @property
     def signals(self) -> CarSignals:
-        """Signals of ignition, gear, speed and doors that this Car's profile names; empty when it names none."""
+        """Signals of ignition, gear, speed and doors in this Car's profile; empty without any."""
         return ()
 
     @property
     def traffic(self) -> BusTraffic | None:
-        """What comes over the bus; None where there is none to ask."""
+        """Traffic of the bus; None without one."""
         return None
 
     @property
     def record(self) -> Mapping[str, str]:
-        """How the Car is watched, for the record of a test: names and texts."""
+        """Description of the Car's bus and profile, for the record of a test: names and texts."""
         return {}
 
     @property
     def notices(self) -> Sequence[str]:
-        """Sentences that the Operator has to know before a test, from connect() on."""
+        """Sentences for the Operator before a test, from connect() on."""
         return ()
 
     @property
     def messages(self) -> BusMessages | None:
-        """Each message of the bus; None where there is no bus to ask. May be asked from any thread."""
+        """Return each message of the bus; None without one. May be called from any thread."""
         return None
 
     @property
     def refused(self) -> Refused:
-        """Frames of the Car's lock message that are not to be believed, since the start."""
+        """Rejected frames of the Car's lock message since the start."""
         return Refused()
 
 
@@ -53,19 +53,19 @@ class BusRecorder:
     """Log of the whole bus; without a bus nothing is logged."""
 
     def log_to(self, path: pathlib.Path | None) -> None:
-        """Log the whole bus into this file from now on, of the kind that its name ends in; None ends the log.
+        """Log the whole bus to this file from now on, in the format of its suffix; None ends the log.
 
-        OutputError when it cannot be begun.
+        OutputError if it cannot be started.
         """
 
     @property
     def log_problem(self) -> str:
-        """Why the log ended before it was to; empty while it goes on, and without one."""
+        """Reason of an early end of the log; empty while it continues, and without one."""
         return ""
 
     @property
     def mark(self) -> BusMark | None:
-        """How far the log has come with the newest Status; None without a log."""
+        """Position of the log at the newest Status; None without a log."""
         return None
 
 
@@ -74,16 +74,16 @@ class CarEquipment:
 
     @property
     def handle(self) -> HandlePort | None:
-        """The output that takes this car's handle; None when it has none, and a person has to do it."""
+        """Output that pulls this car's handle; None without one, so that a person must pull it."""
         return None
 
     @property
     def extender(self) -> ExtenderPort | None:
-        """The output that switches the extender; None when there is none, and a person has to do it."""
+        """Output that switches the extender; None without one, so that a person must switch it."""
         return None
 
     @property
     def distance_feed(self) -> DistanceFeed | None:
-        """What tells the distance of a phone on this Car's bus, or where its profile says; None without one. It is
-        connected, and closed, with this link."""
+        """Feed of a phone's distance on this Car's bus, or from its profile; None without one. It is connected, and
+        closed, with this link."""
         return None

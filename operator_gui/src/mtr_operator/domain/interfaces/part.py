@@ -8,5 +8,5 @@ Kind = TypeVar("Kind")
 
 
 def part(whole: object, kind: type[Kind]) -> Kind:
-    """The object as this interface if it derives from it, else an instance with the interface's defaults."""
+    """Return the object as this interface if it derives from it, else an instance with the interface's defaults."""
     return whole if isinstance(whole, kind) else kind()

@@ -1,4 +1,4 @@
-"""Further interfaces of a scenario, each for one kind of client; the defaults are those of a scenario without it.
+"""Optional interfaces of a scenario, each for one kind of client; the defaults are for a scenario without it.
 
 A scenario derives from those that it offers; a client gets the one that it needs by `part(scenario, Judging)`.
 Parameters, lines and results are the scenario's own.
@@ -19,10 +19,10 @@ class StartChecks:
     """Requirements and warnings before the robot moves."""
 
     def check_means(self, car: Car) -> None:
-        """Raise an OperatorError, before the robot moves, when something is missing that only this scenario needs."""
+        """Raise an OperatorError, before the robot moves, if equipment is missing that only this scenario needs."""
 
     def cautions(self, parameters: Any, facts: LockFacts) -> Sequence[str]:
-        """Sentences, before the start, on what these parameters cannot give on a Car with these facts; none by
+        """Return sentences, before the start, on limits of these parameters on a Car with these facts; none by
         default."""
         return ()
 
@@ -31,7 +31,7 @@ class Resuming:
     """Continuation of a line that was interrupted."""
 
     def can_go_on(self, line: Any, parameters: Any, robot: Robot, car: Car) -> bool:
-        """True when measure can finish a line from where the robot stands, with what Robot.kept has of it."""
+        """Return True if measure can finish a line from the robot's current position, with the data in Robot.kept."""
         return False
 
 
@@ -40,17 +40,17 @@ class FurtherAttempts:
 
     def measure_further(self, line: Any, parameters: Any, robot: Robot, car: Car,
                         so_far: Any) -> Any:
-        """Make the interval of a measured line narrower by more attempts; None when more would not make it so."""
+        """Narrow the interval of a measured line by more attempts; None if more would not narrow it."""
         return None
 
     def share_of_most(self, parameters: Any, result: Any) -> float | None:
-        """Of the most attempts that measure_further allows a line, those that its result rests on; None where it is
-        not measured further, the default."""
+        """Return the attempts of a result relative to the maximum of measure_further; None if lines are not measured
+        further, the default."""
         return None
 
     def looked(self, parameters: Any, results: Sequence[Any], number: int) -> Generator[None, None, Any]:
-        """The result of a line whose looks have changed, with its intervals at the level of the last one. A part of
-        the work with each step, for the robot waits for no long one."""
+        """Return the result of a line whose looks have changed, with its intervals at the level of the last one. Each
+        step does a part of the work, because the robot must not wait long."""
         yield from ()
         return next(result for result in results if result.number == number)
 
@@ -59,12 +59,12 @@ class Concluding:
     """Conclusions from all lines of a test."""
 
     def concluded(self, parameters: Any, results: Sequence[Any]) -> Sequence[Any]:
-        """Those results that read otherwise now that all lines are measured, for what lines have in common; none by
-        default. The same results give the same answer."""
+        """Return the results that changed because all lines are measured and share data; none by default. The same
+        results give the same answer."""
         return ()
 
     def summary(self, results: Sequence[Any]) -> Sequence[tuple[str, str]]:
-        """What all lines together say, a name and a text each, for report and window; nothing by default."""
+        """Return the common result of all lines, a name and a text each, for report and window; empty by default."""
         return ()
 
 
@@ -72,20 +72,20 @@ class Judging:
     """Limits that a test may have, and the meaning of its distances for judging and comparing them."""
 
     def judged_shares(self, parameters: Any) -> tuple[int, ...]:
-        """Shares of attempts, in percent, for whose distances the results have 95 % intervals; a limits file may ask
-        for them."""
+        """Return shares of attempts, in percent, for whose distances the results have 95 % intervals; a limits file may
+        contain them."""
         return ()
 
     def judged_quantities(self, parameters: Any) -> tuple[Quantity, ...]:
-        """What else a limits file may ask for, beside distances."""
+        """Return the quantities other than distances that a limits file may contain."""
         return ()
 
     def unreached(self, parameters: Any, result: Any, word: str) -> tuple[float | None, float | None]:
-        """Between which distances a boundary of a line lies that was not reached; None for an end that nobody knows."""
+        """Return the bounds of a boundary that was not reached; None for an unknown end."""
         return None, parameters.minimum_distance_m
 
     def measurand(self, parameters: Any, result: Any, word: str) -> str:
-        """What a measured distance of a line is where it is not the boundary itself, the same text for the same; only
+        """Return the meaning of a measured distance if it is not the boundary itself, as an identifying text; only
         distances of one measurand are compared. Empty for a boundary, the default."""
         return ""
 
@@ -94,10 +94,10 @@ class Forecasting:
     """Expected duration and precision of a line."""
 
     def forecast(self, parameters: Any, facts: LockFacts, results: Sequence[Any]) -> Forecast | None:
-        """What each line is likely to take and to tell, with what the lines so far say; None without a model of it."""
+        """Return expected duration and precision of each line, updated by the lines so far; None without a model."""
         return None
 
     def expected_line_s(self, parameters: Any) -> float:
-        """How long measuring one line is likely to take, in s of robot time, without the way to its start."""
+        """Return the expected duration of one line, in s of robot time, without the path to its start."""
         near_m, far_m = parameters.distance_range_m
         return float((far_m - near_m) / parameters.maximum_speed_mps)
