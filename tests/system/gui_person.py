@@ -24,10 +24,13 @@ from PyQt5.QtWidgets import (
 
 from mtr_operator.gui.app import Application, make_qt
 from mtr_operator.gui.forms.hold_button import HoldButton
+from mtr_operator.station.links import attention
 
 POLL_S = 0.05
 # Longer than a button has to be held.
 HOLD_MORE_S = 0.5
+# Time without a reaction after which the window counts as hanging in these tests, s; 1 s in use.
+HANGING_S = 30.0
 
 
 class GuiThread(QObject):
@@ -236,6 +239,8 @@ def place_of_entry(label: str, entry: str) -> Optional[QPoint]:
 def run(script: Callable[[Person], None], settings_path: pathlib.Path, limit_s: float,
         words: Optional[Words] = None) -> int:
     """Open the application and let a person follow the script; the exit code. words: see Person."""
+    # Beside the whole stack on a busy machine a window draws late; tests of its own try a window that hangs.
+    attention.LIMIT_S = HANGING_S
     app = make_qt()
     application, gui = Application(settings_path), GuiThread()
     application.open()
