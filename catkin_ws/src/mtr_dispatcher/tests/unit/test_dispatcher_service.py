@@ -10,7 +10,7 @@ import pytest
 from mtr_core.problems import NO_PROBLEM
 from mtr_dispatcher import problems
 from mtr_dispatcher.service.file import FILE_NAME, ServiceFile, recalled
-from mtr_dispatcher.service.mode import NOT_IN_SERVICE, ServiceMode
+from mtr_dispatcher.service.mode import NOT_IN_SERVICE, ServiceMode, random_id
 
 RELEASE_S = 60.0
 NOW_S = 1000.0
@@ -281,3 +281,30 @@ def test_restart_in_service_mode_needs_both_agreements_again(tmp_path):
                                           (1, "dispatcher.service_unreadable")])
 def test_anything_but_a_clear_no_is_service_mode(stored, code):
     assert recalled(stored).code == code
+
+
+def test_agreement_at_the_robot_has_ended_when_its_time_is_over(robot):
+    robot.at_robot()
+    assert robot.update(NOW_S + RELEASE_S - 0.001).mode.agreements[1]
+    assert not robot.update(NOW_S + RELEASE_S).mode.agreements[1]
+
+
+def test_agreement_of_the_operator_has_ended_when_its_time_is_over(robot):
+    first = robot.operator().mode.agreements[0]
+    assert robot.update(NOW_S + RELEASE_S - 0.001).mode.agreements[0] == first
+    assert robot.update(NOW_S + RELEASE_S).mode.agreements[0] != first
+
+
+@pytest.mark.parametrize(("error", "reason"), [
+    (OSError(28, "No space left on device."), "No space left on device"), (OSError("disk is gone."), "disk is gone")])
+def test_reason_of_an_entry_that_cannot_be_stored_is_the_text_of_the_error(error, reason):
+    robot = Robot()
+    robot.error = error
+    robot.enter()
+    assert f"restart of the robot's software: {reason}." in robot.mode.problem.text
+
+
+@pytest.mark.parametrize(("bits", "number"), [(0, 1), (-1, 2 ** 63 - 1)])
+def test_id_is_never_0_and_fits_the_link(monkeypatch, bits, number):
+    monkeypatch.setattr("secrets.randbits", lambda count: bits & (1 << count) - 1)
+    assert random_id() == number
