@@ -239,7 +239,7 @@ def place_of_entry(label: str, entry: str) -> Optional[QPoint]:
 def run(script: Callable[[Person], None], settings_path: pathlib.Path, limit_s: float,
         words: Optional[Words] = None) -> int:
     """Open the application and let a person follow the script; the exit code. words: see Person."""
-    # Beside the whole stack on a busy machine a window draws late; tests of its own try a window that hangs.
+    # With the whole stack on a busy machine the window reacts late; other tests cover a window that hangs.
     attention.LIMIT_S = HANGING_S
     app = make_qt()
     application, gui = Application(settings_path), GuiThread()
