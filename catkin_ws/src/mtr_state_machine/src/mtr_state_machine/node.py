@@ -55,7 +55,9 @@ class StateMachineNode:
         self._mode = publisher(names.ROBOT_MODE, RobotMode)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
         self._watch = PublisherWatch({**dict.fromkeys((*names.MOTION_INPUTS, *names.MOTION_STATES), ANY_NODE),
-                                      names.ROBOT_MODE: rospy.get_name()})
+                                      names.ROBOT_MODE: rospy.get_name(),
+                                      # Without a stop chain the topic has no publisher; the first would be accepted.
+                                      names.STOP_INPUT: "peripherals"})
         self._ticker = Ticker(schedule.STATE_MACHINE, lambda text: rospy.logerr("%s", text))
 
     def spin(self) -> None:
